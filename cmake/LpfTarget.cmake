@@ -1,0 +1,23 @@
+# What every target of the project shares: include root, warnings, sanitizers.
+function(lpf_configure_target target)
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion)
+  if(LPF_WERROR)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(LPF_SANITIZE)
+    target_compile_options(${target} PUBLIC -fsanitize=${LPF_SANITIZE} -fno-omit-frame-pointer
+                                            -fno-sanitize-recover=all)
+    target_link_options(${target} PUBLIC -fsanitize=${LPF_SANITIZE})
+    # Run-time dispatch resolves before a sanitizer is up, so its builds use one instruction set.
+    target_compile_definitions(${target} PRIVATE LPF_NO_MULTIVERSION)
+  endif()
+endfunction()
+
+# lpf_add_library(name SOURCES ... DEPENDS ...): a static library of the project.
+function(lpf_add_library target)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  add_library(${target} STATIC ${ARG_SOURCES})
+  target_link_libraries(${target} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE_DEPENDS})
+  lpf_configure_target(${target})
+endfunction()

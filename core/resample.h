@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/analysis.h"
+
+namespace lpf {
+
+/// Parameters of resampling (paper Sec. 4.1). Exactly one of the two targets is positive.
+struct ResampleParams {
+    AnalysisParams analysis = {};
+    double target_spacing = 0.0;    ///< tau_p, least distance of two points [input length]
+    std::size_t target_points = 0;  ///< number of points wanted, met within 2 % where it can be
+};
+
+struct ResampleResult {
+    Points points;
+    std::vector<std::uint32_t> source;  ///< nearest input point of each, as an index into the input
+    std::vector<std::uint32_t> field;   ///< the LPF that proposed it
+    double spacing = 0.0;               ///< tau_p that was used [input length]
+    AnalysisResult analysis;
+};
+
+/// Points from the consensus of all decoded LPFs (Sec. 4.1, Eq. 7 and 8): no two nearer than tau_p.
+/// @throws as analyze
+[[nodiscard]] ResampleResult resample(const Shape& shape, const ResampleParams& params,
+                                      const Execution& execution);
+
+}  // namespace lpf

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+
+#include "core/base/parallel.h"
+#include "core/shape/point_cloud.h"
+
+namespace lpf {
+
+/// What the automatic parameters are made from.
+struct Measurements {
+    std::size_t points = 0;
+    double diagonal = 0.0;       ///< of the bounding box [input length]
+    double mean_spacing = 0.0;   ///< mean distance to the nearest other position [input length]
+    double noise = 0.0;          ///< sigma, standard deviation off the local surface [input length]
+    double density_radius = 0.0; ///< radius whose ball holds about 150 points [input length]
+};
+
+/// Measures a cloud on a sample of its points. Duplicates do not count as neighbours.
+/// @throws Error{TooFewPoints} below 3 points, Error{DegenerateShape} if all coincide
+[[nodiscard]] Measurements measure(const Points& points, const Execution& execution);
+
+}  // namespace lpf
