@@ -25,6 +25,7 @@ struct ParameterRequest {
     std::optional<double> target_spacing;
     std::optional<std::size_t> target_points;
     std::optional<double> factor;            ///< target points as a multiple of the input's
+    std::optional<ProbingKind> probing;
     std::uint64_t random_seed = 1;
     std::optional<Dictionary> dictionary;    ///< to start from; fixes pattern and atoms
     bool keep_dictionary = false;
