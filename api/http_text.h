@@ -24,7 +24,7 @@ namespace lpf {
                                                     std::span<const std::string_view> offers);
 
 /// Media type without parameters, lower case: "Application/JSON; charset=x" -> "application/json".
-[[nodiscard]] std::string media_type(std::string_view content_type);
+[[nodiscard]] std::string bare_media_type(std::string_view content_type);
 
 /// A parameter of a header ("boundary" of multipart/form-data, "filename" of a disposition),
 /// unquoted.

@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "api/codec/document.h"
 #include "api/job_inputs.h"
 #include "api/problem.h"
 #include "api/time_text.h"
@@ -28,14 +29,6 @@ enum class JobStatus { Accepted, Running, Successful, Failed, Dismissed };
 /// True if a job may go from one status to the other: accepted -> running, dismissed, failed;
 /// running -> any other (back to accepted when its worker was lost).
 [[nodiscard]] bool may_become(JobStatus from, JobStatus to);
-
-/// Something the user should know although the job went on.
-struct Warning {
-    std::string code;  ///< kebab-case, e.g. "non-finite-points"
-    std::string detail;
-
-    bool operator==(const Warning&) const = default;
-};
 
 struct PhaseProgress {
     std::uint64_t done = 0;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "api/codec/format.h"
 #include "api/limits.h"
 #include "core/auto_parameters.h"
 
@@ -17,11 +18,6 @@ enum class DuplicatePolicy { Keep, Remove };
 enum class AttributePolicy { Keep, Drop };
 enum class NormalPolicy { Keep, Estimate, Drop };
 enum class DictionaryMode { Start, Fixed };
-enum class ResultFormat { Ply, PlyAscii, Drc };
-
-/// "ply", "ply-ascii", "drc": as in the input `format` and in ?format=.
-[[nodiscard]] std::string_view format_name(ResultFormat format);
-[[nodiscard]] std::optional<ResultFormat> format_from_name(std::string_view name);
 
 /// What the client asked of a process. Empty = "auto". The names are those of the wire.
 struct JobInputs {
@@ -43,10 +39,11 @@ struct JobInputs {
     std::optional<std::string> dictionary;          ///< ID of a stored dictionary
     std::optional<DictionaryMode> dictionary_mode;  ///< auto: Start
     std::optional<ProbingKind> probing;
-    std::optional<std::int64_t> random_seed;        ///< auto: 1
-    std::optional<ResultFormat> format;             ///< auto: that of the input
-    std::optional<std::int64_t> quantization_bits;  ///< Draco; auto: automatic_quantization_bits
-    std::optional<double> max_seconds;              ///< auto: limits.job_seconds
+    std::optional<std::int64_t> random_seed;  ///< auto: 1
+    std::optional<FileFormat> format;         ///< auto: that of the input
+    std::optional<std::int64_t>
+        quantization_bits;              ///< 0 = exact; auto: see automatic_quantization_bits
+    std::optional<double> max_seconds;  ///< auto: limits.job_seconds
 
     bool operator==(const JobInputs&) const = default;
 };
