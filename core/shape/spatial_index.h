@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "core/shape/point_cloud.h"
@@ -24,11 +23,18 @@ public:
         double squared_distance;
     };
 
-    /// The k nearest points to `query`, nearest first; fewer if the cloud has fewer.
+    /// The k nearest points to `query`, nearest first; fewer if the cloud has fewer. Points at the
+    /// same distance come in no particular order.
     [[nodiscard]] std::vector<Neighbour> nearest(const Eigen::Vector3d& query, std::size_t k) const;
+
+    /// The same into a buffer that is used again and again, for loops over many queries.
+    void nearest(const Eigen::Vector3d& query, std::size_t k, std::vector<Neighbour>& found) const;
 
     /// All points within `radius` (inclusive), in no particular order.
     [[nodiscard]] std::vector<Neighbour> within(const Eigen::Vector3d& query, double radius) const;
+
+    /// The same into a buffer that is used again and again.
+    void within(const Eigen::Vector3d& query, double radius, std::vector<Neighbour>& found) const;
 
 private:
     struct Tree;

@@ -1,0 +1,118 @@
+#include "core/shape/outliers.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "core/shape/spatial_index.h"
+
+namespace lpf {
+namespace {
+
+constexpr std::size_t kNeighbours = 8;
+constexpr std::size_t kFewestPoints = 32;  // below, a median of all says nothing
+
+/// Least robust standard deviation of the logarithm: on a regular lattice the deviation is 0, and
+/// its corners, twice as far from their neighbours as the rest, are no outliers.
+constexpr double kLeastDeviation = 0.2;
+
+/// Mean distance of each point to its nearest other points.
+std::vector<double> mean_distances(const Points& points, const Execution& execution) {
+    const SpatialIndex index(points);
+    std::vector<double> distances(static_cast<std::size_t>(points.cols()));
+    parallel_for(execution, "outliers", "points", distances.size(), 4096,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                     std::vector<SpatialIndex::Neighbour> found;
+                     for (std::size_t i = begin; i < end; ++i) {
+                         const auto column = static_cast<Eigen::Index>(i);
+                         // The nearest of all is the point itself or one in the same place.
+                         index.nearest(points.col(column), kNeighbours + 1, found);
+                         double sum = 0;
+                         for (const auto& neighbour : found) {
+                             sum += std::sqrt(neighbour.squared_distance);
+                         }
+                         distances[i] = sum / static_cast<double>(kNeighbours);
+                     }
+                 });
+    return distances;
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// The distance above which a point is isolated.
+double limit_for(const std::vector<double>& distances, double deviations) {
+    std::vector<double> logarithms;
+    for (const double distance : distances) {
+        if (distance > 0) logarithms.push_back(std::log(distance));  // 0: a heap of duplicates
+    }
+    if (logarithms.empty()) return 0;
+    const double centre = median(logarithms);
+    for (double& value : logarithms) value = std::abs(value - centre);
+    const double deviation = std::max(kLeastDeviation, 1.4826 * median(logarithms));
+    return std::exp(centre + deviations * deviation);
+}
+
+struct Key {
+    std::uint64_t hash;
+    std::uint32_t index;
+};
+
+std::uint64_t hash_position(const Points& points, std::uint32_t index) {
+    std::uint64_t hash = 0;
+    for (int c = 0; c < 3; ++c) {
+        const double coordinate = points(c, index) + 0.0;  // -0.0 becomes 0.0
+        hash = (hash ^ std::bit_cast<std::uint64_t>(coordinate)) * 0x9e3779b97f4a7c15ULL;
+        hash ^= hash >> 29U;
+    }
+    return hash;
+}
+
+/// Marks the repeats in a run of equal hashes. Positions are compared: hashes may meet by accident.
+void mark_repeats(const Points& points, std::span<Key> run, std::vector<std::uint8_t>& repeated) {
+    const auto place = [&](const Key& key) {
+        return std::array{points(0, key.index), points(1, key.index), points(2, key.index)};
+    };
+    std::stable_sort(run.begin(), run.end(),
+                     [&](const Key& a, const Key& b) { return place(a) < place(b); });
+    for (std::size_t i = 1; i < run.size(); ++i) {
+        if (place(run[i]) == place(run[i - 1])) repeated[run[i].index] = 1;
+    }
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> find_outliers(const Points& points, double deviations,
+                                        const Execution& execution) {
+    std::vector<std::uint8_t> isolated(static_cast<std::size_t>(points.cols()), 0);
+    if (isolated.size() < kFewestPoints) return isolated;
+    const std::vector<double> distances = mean_distances(points, execution);
+    const double limit = limit_for(distances, deviations);
+    for (std::size_t i = 0; i < isolated.size(); ++i) isolated[i] = distances[i] > limit;
+    return isolated;
+}
+
+std::vector<std::uint8_t> find_duplicates(const Points& points) {
+    const auto n = static_cast<std::size_t>(points.cols());
+    std::vector<std::uint8_t> repeated(n, 0);
+    std::vector<Key> keys(n);
+    for (std::uint32_t i = 0; i < n; ++i) keys[i] = {hash_position(points, i), i};
+    std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+        return a.hash != b.hash ? a.hash < b.hash : a.index < b.index;
+    });
+    for (std::size_t begin = 0; begin < n;) {
+        std::size_t end = begin + 1;
+        while (end < n && keys[end].hash == keys[begin].hash) ++end;
+        if (end - begin > 1) {
+            mark_repeats(points, std::span(keys).subspan(begin, end - begin), repeated);
+        }
+        begin = end;
+    }
+    return repeated;
+}
+
+}  // namespace lpf
