@@ -68,7 +68,7 @@ struct ExecuteRequest {
     JobInputs inputs;
 };
 
-/// {"inputs": {"shape": ID or {"href": ".../v1/shapes/ID"}, ...}}
+/// {"inputs": {"shape": ID or {"href": "/v1/shapes/ID"}, ...}}
 /// @throws ProblemException{InvalidParameter} with one entry per fault
 [[nodiscard]] ExecuteRequest execute_request_from_json(Task task, const nlohmann::json& body,
                                                        const Limits& limits);
@@ -83,6 +83,10 @@ struct ExecuteRequest {
 /// The request to the method, lengths in the input's unit. The caller loads the dictionary.
 [[nodiscard]] ParameterRequest to_request(const JobInputs& inputs,
                                           const Measurements& measurements);
+
+/// Refuses a factor that asks for more points than a result may have.
+/// @throws lpf::Error{LimitExceeded, "factor"}
+void check_result_size(const JobInputs& inputs, std::uint64_t input_points, const Limits& limits);
 
 /// Bits of Draco positions such that one step is under a hundredth of the mean spacing: 11 to 24.
 [[nodiscard]] int automatic_quantization_bits(double diagonal, double mean_spacing);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstdint>
+#include <limits>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
@@ -16,19 +16,21 @@ namespace lpf {
 /// What a value is, besides the string "auto".
 enum class ParameterType { Number, Integer, Choice, Identifier };
 
+inline constexpr double kNoMaximum = std::numeric_limits<double>::infinity();
+
 /// One input of the processes. Validation, JSON Schema and documentation are all made from this.
 struct Parameter {
     std::string_view name;  ///< on the wire, camelCase
-    ParameterType type;
-    std::string_view title;
-    std::string_view unit;   ///< e.g. "points"; empty if it has none
-    double minimum;          ///< of numbers
-    double maximum;          ///< of numbers; infinity if there is none
-    bool exclusive_minimum;  ///< the minimum itself is not allowed
-    std::vector<std::string_view> choices;
-    std::vector<Task> tasks;  ///< the processes that take it
-    std::string_view description;
-    std::string_view automatic;  ///< what "auto", the default, does
+    ParameterType type = ParameterType::Number;
+    std::string_view title = {};
+    std::string_view unit = {};      ///< e.g. "points"; empty if it has none
+    double minimum = 0.0;            ///< of numbers
+    double maximum = kNoMaximum;     ///< of numbers
+    bool exclusive_minimum = false;  ///< the minimum itself is not allowed
+    std::vector<std::string_view> choices = {};
+    std::vector<Task> tasks = {};  ///< the processes that take it
+    std::string_view description = {};
+    std::string_view automatic = {};  ///< what "auto", the default, does
 };
 
 /// All parameters, in the order of the documentation. Upper ends come from the limits.

@@ -1,0 +1,64 @@
+#include "api/limits.h"
+
+#include <nlohmann/json.hpp>
+
+namespace lpf {
+namespace {
+
+constexpr LimitField kLimits[] = {
+    {"uploadBytes", "bytes", "Size of an uploaded file.", &Limits::upload_bytes},
+    {"points", "points", "Points of a shape, and of a result.", &Limits::points},
+    {"faces", "faces", "Faces of a mesh.", &Limits::faces},
+    {"jsonBytes", "bytes", "Size of a JSON body.", &Limits::json_bytes},
+    {"jsonDepth", "levels", "Nesting of a JSON body.", &Limits::json_depth},
+    {"jsonStringBytes", "bytes", "Length of one string in a JSON body.",
+     &Limits::json_string_bytes},
+    {"headBytes", "bytes", "Size of a request's head.", &Limits::head_bytes},
+    {"headFields", "fields", "Header fields of a request.", &Limits::head_fields},
+    {"uriBytes", "bytes", "Length of a request's target.", &Limits::uri_bytes},
+    {"bodyIdleSeconds", "s", "Silence within a request's body.", &Limits::body_idle_seconds},
+    {"bodySeconds", "s", "Time for a whole request's body.", &Limits::body_seconds},
+    {"connections", "connections", "Open connections.", &Limits::connections},
+    {"connectionsPerAddress", "connections", "Open connections of one address.",
+     &Limits::connections_per_address},
+    {"requestsPerSecond", "1/s", "Steady rate of requests of one key.",
+     &Limits::requests_per_second},
+    {"requestBurst", "requests", "Requests of one key at once.", &Limits::request_burst},
+    {"uploadsPerSecond", "1/s", "Steady rate of uploads of one key.", &Limits::uploads_per_second},
+    {"queuedJobs", "jobs", "Jobs waiting in the queue.", &Limits::queued_jobs},
+    {"queuedJobsPerKey", "jobs", "Jobs of one key waiting in the queue.",
+     &Limits::queued_jobs_per_key},
+    {"jobSeconds", "s", "Time that a job may run.", &Limits::job_seconds},
+    {"jobAttempts", "attempts", "Times that a job is started before it is given up.",
+     &Limits::job_attempts},
+    {"waitSeconds", "s", "Longest wait that a request may ask for.", &Limits::wait_seconds},
+    {"pageItems", "items", "Items on one page of a list.", &Limits::page_items},
+    {"patternPoints", "points", "Points of a pattern, M.", &Limits::pattern_points},
+    {"atoms", "atoms", "Atoms of a dictionary, d.", &Limits::atoms},
+    {"analysisIterations", "iterations", "Iterations of the joint analysis.",
+     &Limits::analysis_iterations},
+    {"denoiseIterations", "iterations", "Outer iterations of denoising.",
+     &Limits::denoise_iterations},
+    {"resultRetentionSeconds", "s", "Time that results are kept after a job ended.",
+     &Limits::result_retention_seconds},
+    {"statusRetentionSeconds", "s", "Time that a job's status is kept after it ended.",
+     &Limits::status_retention_seconds},
+    {"uploadRetentionSeconds", "s", "Time that an incomplete upload is kept.",
+     &Limits::upload_retention_seconds},
+    {"diskFloorBytes", "bytes", "Free space under which nothing more is accepted.",
+     &Limits::disk_floor_bytes},
+    {"diskFloorPercent", "%", "Free share of the disk under which nothing more is accepted.",
+     &Limits::disk_floor_percent},
+};
+
+}  // namespace
+
+std::span<const LimitField> limit_table() { return kLimits; }
+
+nlohmann::json to_json(const Limits& limits) {
+    nlohmann::json json = nlohmann::json::object();
+    for (const LimitField& field : kLimits) json[std::string(field.name)] = limits.*field.value;
+    return json;
+}
+
+}  // namespace lpf
