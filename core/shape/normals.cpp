@@ -29,8 +29,8 @@ Eigen::Matrix3d covariance(const Points& points, const Neighbours& neighbours) {
 
 /// Direction of least spread, or zero where the neighbours span no plane.
 Eigen::Vector3d least_direction(const Eigen::Matrix3d& spread) {
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-    solver.computeDirect(spread);
+    // Iterative: the closed form is off by 1e-8, too much to tell a line from a narrow strip.
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
     const Eigen::Vector3d& values = solver.eigenvalues();  // ascending
     if (!(values[1] > kLine * values[2])) return Eigen::Vector3d::Zero();
     return solver.eigenvectors().col(0);
