@@ -32,20 +32,6 @@ std::string bound_text(double value) {
     return number_text(value);
 }
 
-/// A name as one step of a JSON pointer (RFC 6901).
-std::string pointer_step(std::string_view name) {
-    std::string step = "/";
-    for (const char c : name) {
-        if (c == '~')
-            step += "~0";
-        else if (c == '/')
-            step += "~1";
-        else
-            step += c;
-    }
-    return step;
-}
-
 std::string join(const std::vector<std::string_view>& names) {
     std::string text;
     for (const std::string_view name : names) {
@@ -65,6 +51,19 @@ bool takes(const Parameter& parameter, Task task) {
 }
 
 }  // namespace
+
+std::string pointer_step(std::string_view name) {
+    std::string step = "/";
+    for (const char c : name) {
+        if (c == '~')
+            step += "~0";
+        else if (c == '/')
+            step += "~1";
+        else
+            step += c;
+    }
+    return step;
+}
 
 std::string expectation(const Parameter& parameter) {
     if (parameter.type == ParameterType::Choice) return "one of " + join(parameter.choices);
@@ -109,7 +108,7 @@ void InputReader::read_text(std::string_view name, std::string_view text) {
     if (error != std::errc{} || stop != end || text.empty()) {
         wrong(*parameter, shown_value(text));
     } else {
-        keep_number(*parameter, value, text);
+        keep_number(*parameter, value, shown_value(text));
     }
 }
 

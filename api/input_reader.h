@@ -42,6 +42,9 @@ private:
     std::vector<FieldError> faults_;
 };
 
+/// A name as one step of a JSON pointer (RFC 6901): "a/b" -> "/a~1b".
+[[nodiscard]] std::string pointer_step(std::string_view name);
+
 /// What a parameter takes, in words: "an integer from 5 to 12853".
 [[nodiscard]] std::string expectation(const Parameter& parameter);
 

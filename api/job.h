@@ -52,6 +52,9 @@ struct ResolvedParameter {
 [[nodiscard]] std::vector<ResolvedParameter> resolved_parameters(
     const std::vector<ResolvedValue>& values);
 
+/// {"radius": {"value": 0.2, "source": "auto", "rule": "..."}, ...}
+[[nodiscard]] nlohmann::json to_json(const std::vector<ResolvedParameter>& parameters);
+
 /// State of a job: stored by the server, answered by GET /v1/jobs/{id}.
 struct StatusInfo {
     std::string job_id;  ///< UUIDv7

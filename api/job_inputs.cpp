@@ -90,7 +90,7 @@ ExecuteRequest execute_request_from_json(Task task, const json& body, const Limi
     if (!body.is_object()) refuse_body("", "The body must be a JSON object with a member inputs.");
     for (const auto& [name, value] : body.items()) {
         if (name == "inputs") continue;
-        refuse_body("/" + name, "The body takes the member inputs and no other.");
+        refuse_body(pointer_step(name), "The body takes the member inputs and no other.");
     }
     if (!body.contains("inputs") || !body["inputs"].is_object()) {
         refuse_body("/inputs", "The body needs the member inputs, an object.");

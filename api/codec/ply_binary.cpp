@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <utility>
+
+#include "api/codec/ply_columns.h"
+#include "api/codec/strided.h"
+#include "api/codec/text.h"
+
+namespace lpf {
+namespace {
+
+static_assert(std::endian::native == std::endian::little,
+              "columns are kept in the machine's byte order, taken to be little-endian");
+
+class BinaryReader {
+public:
+    BinaryReader(const PlyElement& element, std::span<const std::byte> file, std::size_t at,
+                 bool big_endian)
+        : file_(file), at_(at), big_endian_(big_endian), table_(table_for(element)) {}
+
+    PlyTable read() {
+        const bool has_list =
+            std::any_of(table_.columns.begin(), table_.columns.end(),
+                        [](const PlyColumn& column) { return column.property().is_list; });
+        if (has_list) {
+            read_row_by_row();
+        } else {
+            read_blocks();
+        }
+        if (big_endian_) {
+            for (PlyColumn& column : table_.columns) {
+                swap_bytes(size_of(column.property().type), column.data());
+            }
+        }
+        return std::move(table_);
+    }
+
+    [[nodiscard]] std::size_t at() const { return at_; }
+
+private:
+    void read_blocks();
+    void read_row_by_row();
+    void read_list(PlyColumn& column, std::size_t row);
+    [[nodiscard]] std::int64_t read_integer(ScalarType type, const std::byte* source) const;
+    std::uint64_t read_count(const PlyColumn& column, std::size_t row);
+    const std::byte* take(std::size_t size, std::size_t row, const PlyColumn& column);
+
+    std::span<const std::byte> file_;
+    std::size_t at_;
+    bool big_endian_;
+    PlyTable table_;
+};
+
+/// The next `size` bytes of the file.
+const std::byte* BinaryReader::take(std::size_t size, std::size_t row, const PlyColumn& column) {
+    if (file_.size() - at_ < size) {
+        malformed("the file ends at byte ", file_.size(), " inside row ", row, " of ", table_.rows,
+                  " of element ", quoted(table_.name), ", property ",
+                  quoted(column.property().name), ", which needs ", size, " bytes at byte ", at_);
+    }
+    const std::byte* bytes = file_.data() + at_;
+    at_ += size;
+    return bytes;
+}
+
+/// Rows of one length: a block of them at a time, column by column.
+void BinaryReader::read_blocks() {
+    std::size_t row_size = 0;
+    for (const PlyColumn& column : table_.columns) row_size += size_of(column.property().type);
+    // The caller compared the count with the bytes there are: neither product overflows.
+    const std::byte* first = file_.data() + at_;
+    for (PlyColumn& column : table_.columns) column.set_rows(table_.rows);
+    for (std::size_t row = 0; row < table_.rows; row += kRowsPerBlock) {
+        const std::size_t n = std::min(kRowsPerBlock, table_.rows - row);
+        const std::byte* source = first + row * row_size;
+        for (PlyColumn& column : table_.columns) {
+            const std::size_t size = size_of(column.property().type);
+            copy_strided(size, n, source, row_size, column.data().data() + row * size, size);
+            source += size;
+        }
+    }
+    at_ += table_.rows * row_size;
+}
+
+void BinaryReader::read_row_by_row() {
+    for (PlyColumn& column : table_.columns) {
+        if (!column.property().is_list) column.set_rows(table_.rows);
+    }
+    for (std::size_t row = 0; row < table_.rows; ++row) {
+        for (PlyColumn& column : table_.columns) {
+            if (column.property().is_list) {
+                read_list(column, row);
+                continue;
+            }
+            const std::size_t size = size_of(column.property().type);
+            const std::byte* value = take(size, row, column);
+            copy_strided(size, 1, value, size, column.data().data() + row * size, size);
+        }
+    }
+}
+
+void BinaryReader::read_list(PlyColumn& column, std::size_t row) {
+    const std::uint64_t length = read_count(column, row);
+    const std::size_t size = size_of(column.property().type);
+    const std::size_t most_values = (file_.size() - at_) / size;
+    const std::byte* values = take(length * size, row, column);
+    std::byte* target = column.add_list(length, table_.rows, most_values);
+    if (length > 0) std::memcpy(target, values, length * size);
+}
+
+template <typename T>
+std::int64_t integer_of(std::span<const std::byte> bytes) {
+    T value;
+    std::memcpy(&value, bytes.data(), sizeof value);
+    return value;
+}
+
+std::int64_t BinaryReader::read_integer(ScalarType type, const std::byte* source) const {
+    std::array<std::byte, 4> copy{};
+    const std::span<std::byte> bytes(copy.data(), size_of(type));
+    std::copy_n(source, bytes.size(), bytes.begin());
+    if (big_endian_) swap_bytes(bytes.size(), bytes);
+    switch (type) {
+        case ScalarType::Int8: return integer_of<std::int8_t>(bytes);
+        case ScalarType::UInt8: return integer_of<std::uint8_t>(bytes);
+        case ScalarType::Int16: return integer_of<std::int16_t>(bytes);
+        case ScalarType::UInt16: return integer_of<std::uint16_t>(bytes);
+        case ScalarType::Int32: return integer_of<std::int32_t>(bytes);
+        default: return integer_of<std::uint32_t>(bytes);
+    }
+}
+
+std::uint64_t BinaryReader::read_count(const PlyColumn& column, std::size_t row) {
+    const ScalarType type = column.property().count_type;
+    const std::size_t at = at_;
+    const std::int64_t length = read_integer(type, take(size_of(type), row, column));
+    if (length < 0) {
+        malformed("byte ", at, ": the list ", quoted(column.property().name), " in row ", row,
+                  " of element ", quoted(table_.name), " claims ", length,
+                  " values; a length cannot be negative");
+    }
+    if (length > static_cast<std::int64_t>(kMaxPlyListLength)) {
+        fail(ErrorCode::LimitExceeded, "byte ", at, ": the list ", quoted(column.property().name),
+             " in row ", row, " of element ", quoted(table_.name), " claims ", length,
+             " values; the limit is ", kMaxPlyListLength);
+    }
+    return static_cast<std::uint64_t>(length);
+}
+
+}  // namespace
+
+PlyTable read_binary_rows(const PlyElement& element, std::span<const std::byte> file,
+                          std::size_t& at, bool big_endian) {
+    BinaryReader reader(element, file, at, big_endian);
+    PlyTable table = reader.read();
+    at = reader.at();
+    return table;
+}
+
+}  // namespace lpf

@@ -1,0 +1,57 @@
+#include "api/codec/ply_columns.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace lpf {
+
+std::byte* PlyColumn::set_rows(std::size_t rows) {
+    data_.resize(rows * size_of(property_.type));
+    return data_.data();
+}
+
+std::byte* PlyColumn::add_list(std::size_t length, std::size_t rows, std::size_t most_values) {
+    const std::size_t size = size_of(property_.type);
+    if (lists_ == 0) {
+        common_length_ = length;
+        // rows * length cannot overflow: rows <= bytes of the file, length <= 65536.
+        data_.reserve(std::min(rows * length, most_values) * size);
+    } else if (offsets_.empty() && length != common_length_) {
+        write_offsets_out();
+        offsets_.reserve(rows + 1);
+    }
+    ++lists_;
+    if (!offsets_.empty()) offsets_.push_back(offsets_.back() + length);
+    const std::size_t begin = data_.size();
+    data_.resize(begin + length * size);
+    return data_.data() + begin;
+}
+
+void PlyColumn::write_offsets_out() {
+    offsets_.resize(lists_ + 1);
+    for (std::size_t i = 0; i <= lists_; ++i) offsets_[i] = i * common_length_;
+}
+
+std::vector<std::uint64_t> PlyColumn::take_offsets() {
+    if (offsets_.empty()) write_offsets_out();
+    return std::exchange(offsets_, {});
+}
+
+Attribute PlyColumn::release() {
+    Attribute result;
+    result.name = property_.name;
+    result.type = property_.type;
+    result.count_type = property_.count_type;
+    if (property_.is_list) result.list_offsets = take_offsets();
+    result.data = std::exchange(data_, {});
+    return result;
+}
+
+PlyTable table_for(const PlyElement& element) {
+    PlyTable table{element.name, static_cast<std::size_t>(element.count), {}};
+    table.columns.reserve(element.properties.size());
+    for (const PlyProperty& property : element.properties) table.columns.emplace_back(property);
+    return table;
+}
+
+}  // namespace lpf

@@ -1,0 +1,227 @@
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "api/codec/names.h"
+#include "api/codec/ply.h"
+#include "api/codec/ply_header.h"
+#include "api/codec/ply_rows.h"
+#include "api/codec/positions.h"
+#include "api/codec/text.h"
+
+namespace lpf {
+namespace {
+
+ScalarType smallest_count_type(std::uint64_t longest) {
+    if (longest <= std::numeric_limits<std::uint8_t>::max()) return ScalarType::UInt8;
+    if (longest <= std::numeric_limits<std::uint16_t>::max()) return ScalarType::UInt16;
+    return ScalarType::UInt32;
+}
+
+std::uint64_t longest_list(std::span<const std::uint64_t> offsets) {
+    std::uint64_t longest = 0;
+    for (std::size_t i = 1; i < offsets.size(); ++i) {
+        longest = std::max(longest, offsets[i] - offsets[i - 1]);
+    }
+    return longest;
+}
+
+/// The type that the file had, unless a list has become too long for it.
+ScalarType count_type_for(const Attribute& attribute) {
+    const std::uint64_t longest = longest_list(attribute.list_offsets);
+    const std::size_t needed = size_of(smallest_count_type(longest));
+    const bool is_unsigned = attribute.count_type == ScalarType::UInt8 ||
+                             attribute.count_type == ScalarType::UInt16 ||
+                             attribute.count_type == ScalarType::UInt32;
+    const bool fits = size_of(attribute.count_type) >= needed &&
+                      (is_unsigned || longest <= 127 || size_of(attribute.count_type) > needed);
+    return fits ? attribute.count_type : smallest_count_type(longest);
+}
+
+class PlyWriter {
+public:
+    PlyWriter(const Document& document, const EncodeOptions& options, std::vector<Warning>& lost)
+        : document_(document),
+          options_(options),
+          lost_(lost),
+          double_positions_(options.double_positions ||
+                            exceed_float32(document.shape.cloud.points)) {}
+
+    std::string write() {
+        add_vertices();
+        add_faces();
+        for (const Element& element : document_.elements) add_element(element);
+        std::string out = header();
+        reserve_rows(out);
+        for (const PlyOutputElement& element : elements_) {
+            if (options_.format == FileFormat::PlyAscii) {
+                write_ascii_rows(element, out);
+            } else {
+                write_binary_rows(element, options_.format == FileFormat::PlyBigEndian, out);
+            }
+        }
+        return out;
+    }
+
+private:
+    void add_vertices();
+    void add_faces();
+    void add_element(const Element& element);
+    void add_attributes(PlyOutputElement& element, const std::vector<Attribute>& attributes,
+                        NameSet& names);
+    void add_coordinates(PlyOutputElement& vertex);
+    [[nodiscard]] std::string header() const;
+    void reserve_rows(std::string& out) const;
+
+    const Document& document_;
+    const EncodeOptions& options_;
+    std::vector<Warning>& lost_;
+    bool double_positions_;
+    std::vector<std::vector<std::byte>> coordinates_;
+    std::vector<PlyOutputElement> elements_;
+};
+
+template <typename T>
+std::vector<std::byte> coordinate_column(const Points& points, Eigen::Index axis) {
+    std::vector<std::byte> column(static_cast<std::size_t>(points.cols()) * sizeof(T));
+    for (Eigen::Index i = 0; i < points.cols(); ++i) {
+        const T value = static_cast<T>(points(axis, i));
+        std::memcpy(column.data() + static_cast<std::size_t>(i) * sizeof value, &value,
+                    sizeof value);
+    }
+    return column;
+}
+
+void PlyWriter::add_coordinates(PlyOutputElement& vertex) {
+    const Points& points = document_.shape.cloud.points;
+    coordinates_.reserve(3);
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        coordinates_.push_back(double_positions_ ? coordinate_column<double>(points, axis)
+                                                 : coordinate_column<float>(points, axis));
+        PlyOutputColumn column;
+        column.name = std::string(1, "xyz"[axis]);
+        column.type = double_positions_ ? ScalarType::Float64 : ScalarType::Float32;
+        column.data = coordinates_.back().data();
+        vertex.columns.push_back(std::move(column));
+    }
+}
+
+void PlyWriter::add_vertices() {
+    PlyOutputElement vertex{"vertex", document_.shape.size(), {}};
+    add_coordinates(vertex);
+    NameSet names({"x", "y", "z"});
+    add_attributes(vertex, document_.shape.cloud.attributes, names);
+    elements_.push_back(std::move(vertex));
+}
+
+void PlyWriter::add_faces() {
+    const std::size_t faces = document_.face_count();
+    if (faces == 0) return;
+    PlyOutputElement face{"face", faces, {}};
+    PlyOutputColumn column;
+    column.name = "vertex_indices";
+    const bool fits_int = document_.shape.size() <= std::numeric_limits<std::int32_t>::max();
+    column.type = fits_int ? ScalarType::Int32 : ScalarType::UInt32;
+    column.is_list = true;
+    if (document_.polygons.empty()) {
+        column.common_length = 3;
+        column.data = reinterpret_cast<const std::byte*>(document_.shape.triangles.data());
+    } else {
+        column.offsets = document_.polygons.offsets;
+        column.data = reinterpret_cast<const std::byte*>(document_.polygons.vertices.data());
+        column.count_type = smallest_count_type(longest_list(column.offsets));
+    }
+    face.columns.push_back(std::move(column));
+    NameSet names({"vertex_indices", "vertex_index"});
+    add_attributes(face, document_.face_attributes, names);
+    elements_.push_back(std::move(face));
+}
+
+void PlyWriter::add_element(const Element& element) {
+    PlyOutputElement output{element.name, element.rows, {}};
+    NameSet names({});
+    add_attributes(output, element.attributes, names);
+    if (output.columns.empty()) output.rows = 0;
+    elements_.push_back(std::move(output));
+}
+
+void PlyWriter::add_attributes(PlyOutputElement& element, const std::vector<Attribute>& attributes,
+                               NameSet& names) {
+    for (const Attribute& attribute : attributes) {
+        if (attribute.rows() != element.rows) {
+            fail(ErrorCode::Internal, "attribute ", quoted(attribute.name), " has ",
+                 attribute.rows(), " rows, but element ", quoted(element.name), " has ",
+                 element.rows);
+        }
+        PlyOutputColumn column;
+        column.name = names.claim(attribute.name);
+        column.type = attribute.type;
+        column.data = attribute.data.data();
+        column.is_list = attribute.is_list();
+        column.offsets = attribute.list_offsets;
+        if (column.is_list) column.count_type = count_type_for(attribute);
+        if (column.name != attribute.name) {
+            lost_.push_back({"attribute-renamed",
+                             message_of("attribute ", quoted(attribute.name), " is written as ",
+                                        quoted(column.name), ": a PLY name is one unique word")});
+        }
+        element.columns.push_back(std::move(column));
+    }
+}
+
+std::string_view kind_of(FileFormat format) {
+    switch (format) {
+        case FileFormat::PlyAscii: return "ascii";
+        case FileFormat::PlyBigEndian: return "binary_big_endian";
+        default: return "binary_little_endian";
+    }
+}
+
+void append_lines(std::string_view keyword, const std::vector<std::string>& lines,
+                  std::string& out) {
+    for (const std::string& line : lines) {
+        out += message_of(keyword, line.empty() ? "" : " ", one_line(line), "\n");
+    }
+}
+
+std::string PlyWriter::header() const {
+    std::string out = message_of("ply\nformat ", kind_of(options_.format), " 1.0\n");
+    append_lines("comment", options_.comments, out);
+    append_lines("comment", document_.comments, out);
+    append_lines("obj_info", document_.obj_info, out);
+    for (const PlyOutputElement& element : elements_) {
+        out += message_of("element ", element.name, " ", element.rows, "\n");
+        for (const PlyOutputColumn& column : element.columns) {
+            out += "property ";
+            if (column.is_list) out += message_of("list ", ply_type_name(column.count_type), " ");
+            out += message_of(ply_type_name(column.type), " ", column.name, "\n");
+        }
+    }
+    return out + "end_header\n";
+}
+
+/// Makes room for binary rows exactly, and for ASCII rows roughly.
+void PlyWriter::reserve_rows(std::string& out) const {
+    std::size_t bytes = out.size();
+    for (const PlyOutputElement& element : elements_) {
+        for (const PlyOutputColumn& column : element.columns) {
+            std::size_t values = element.rows;
+            if (column.is_list) {
+                values = column.list_begin(element.rows);
+                bytes += element.rows * size_of(column.count_type);
+            }
+            bytes += values * size_of(column.type);
+        }
+    }
+    out.reserve(options_.format == FileFormat::PlyAscii ? 2 * bytes : bytes);
+}
+
+}  // namespace
+
+std::string encode_ply(const Document& document, const EncodeOptions& options,
+                       std::vector<Warning>& lost) {
+    return PlyWriter(document, options, lost).write();
+}
+
+}  // namespace lpf
