@@ -7,31 +7,20 @@
 #include "core/base/parallel.h"
 #include "core/field/frame.h"
 #include "core/field/pattern.h"
+#include "core/field/probing.h"
 #include "core/learn/dictionary.h"
+#include "core/learn/lasso.h"
 #include "core/learn/sparse_code.h"
 #include "core/shape/shape.h"
 
 namespace lpf {
 
-/// How a pattern point finds its point of the shape (paper Sec. 2.1 and 2.2).
-enum class ProbingKind {
-    AsOrthogonalAsPossible,  ///< the target point nearest in the pattern plane (the paper's)
-    NoiseAware,              ///< local mean height over the plane; for noisy points
-    NearestPoint,            ///< the nearest target point in space
-    NearestTriangle          ///< projection on the nearest triangle; needs a mesh
-};
-
 enum class PatternKind { Grid, RandomDisk, Custom };
 
 struct PatternParams {
     PatternKind kind = PatternKind::Grid;
-    int points = 193;                ///< M, 5 to 12853; a grid takes the nearest possible number
+    int points = 193;                ///< M, 5 to 12849; a grid takes the nearest possible number
     Eigen::Matrix3Xf offsets = {};   ///< for PatternKind::Custom: 3 x M [radius]
-};
-
-enum class LassoMethod {
-    CoordinateDescent,  ///< warm-started; the fast one
-    Lars                ///< least angle regression, as in the paper (Sec. 3.3)
 };
 
 /// Parameters of the joint analysis (paper Sec. 3).
@@ -81,6 +70,10 @@ struct AnalysisResult {
 
 /// @throws Error{InvalidParameter} naming the field that is out of range
 void validate(const AnalysisParams& params);
+
+/// @throws Error{TooFewPoints} below 3 points, Error{InvalidParameter} for a coordinate that is not
+/// finite, Error{DegenerateShape} if all points coincide
+void check_points(const Points& points);
 
 /// The joint analysis of a shape (paper Sec. 3.2): poses, dictionary and sparse codes.
 /// @param shape finite points, at least 3, not all the same

@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/analysis.h"
+#include "core/denoise.h"
 
 namespace lpf {
 
@@ -13,6 +15,13 @@ struct ResampleParams {
     AnalysisParams analysis = {};
     double target_spacing = 0.0;    ///< tau_p, least distance of two points [input length]
     std::size_t target_points = 0;  ///< number of points wanted, met within 2 % where it can be
+
+    /// Distance over which the shape goes on between input points: a candidate without a point that
+    /// near it is beyond a border and dropped [input length]; 0 = keep all (meshes).
+    double support = 0.0;
+
+    /// Noisy points are denoised before they are resampled.
+    std::optional<DenoiseParams> denoise = {};
 };
 
 struct ResampleResult {

@@ -17,7 +17,7 @@ public:
     static Pattern grid(int n);
 
     /// M points drawn uniformly in the unit disk (paper Fig. 2, right), the centre first.
-    /// @throws Error{InvalidParameter} unless 5 <= points <= 12853
+    /// @throws Error{InvalidParameter} unless 5 <= points <= 12849
     static Pattern random_disk(int points, std::uint64_t random_seed);
 
     /// A pattern of the caller's own. offsets: 3 x M in radius units.

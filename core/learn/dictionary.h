@@ -34,4 +34,28 @@ private:
     std::vector<float> values_;
 };
 
+/// What a round of coding leaves for the dictionary update: A = sum a a' and B = sum V a' (Mairal et al.
+/// 2010, "Online learning for matrix factorization and sparse coding", algorithm 1).
+class DictionaryStatistics {
+public:
+    DictionaryStatistics(int atoms, std::size_t stride);
+
+    /// Adds one field of `stride` floats and its code.
+    void add(std::span<const float> code, std::span<const float> field);
+    void add(const DictionaryStatistics& other);
+
+    /// One sweep of block coordinate descent over the atoms: lowers sum |V - D a|^2 with the codes fixed,
+    /// norms kept <= 1. @returns the atoms that no code uses, which stay as they are
+    std::vector<int> update(Dictionary& dictionary) const;
+
+private:
+    std::size_t atoms_;
+    std::size_t stride_;
+    std::vector<float> a_;  // d x d
+    std::vector<float> b_;  // d x stride
+};
+
+/// Makes `field` an atom: scaled to norm 1; the zero field stays zero.
+void set_atom(Dictionary& dictionary, int atom, std::span<const float> field);
+
 }  // namespace lpf

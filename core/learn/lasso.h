@@ -8,6 +8,12 @@ namespace lpf {
 /// Largest d that the solvers take: their work space is on the stack.
 inline constexpr std::size_t kMaxAtoms = 256;
 
+/// Which algorithm solves it; both give the same code.
+enum class LassoMethod {
+    CoordinateDescent,  ///< warm-started; the fast one
+    Lars                ///< least angle regression, as in the paper (Sec. 3.3)
+};
+
 /// Sparse coding of one field (paper Eq. 3): min over a of |V - D a|^2 + lambda |a|_1, without the
 /// factor 1/2, on the Gram matrix G = D'D and the correlations c = D'V.
 /// At the solution |2 (c - G a)_k| <= lambda, with equality (and the sign of a_k) where a_k != 0.

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+
+/// The innermost loops over plain float arrays, compiled for several instruction sets and chosen at
+/// run time. No type with a layout that depends on compiler flags may cross this header.
+namespace lpf::kernels {
+
+/// Sum of a[i] b[i].
+float dot(const float* a, const float* b, std::size_t n);
+
+/// Sum of (a[i] - b[i])^2.
+float squared_distance(const float* a, const float* b, std::size_t n);
+
+/// out[k] = <row k of rows, v>: rows x n, row-major, against one vector of n.
+void multiply_rows(const float* rows, std::size_t row_count, std::size_t n, const float* v,
+                   float* out);
+
+/// out[i] += scale * in[i].
+void add_scaled(float scale, const float* in, float* out, std::size_t n);
+
+/// Raw moments of two point sets a = u + v and b = u + w, each three channels of n floats.
+struct PairMoments {
+    float a[3];      ///< sum a
+    float b[3];      ///< sum b
+    float ab[9];     ///< sum a b', row-major
+};
+PairMoments pair_moments(const float* u, const float* v, const float* w, std::size_t n);
+
+/// (x, y, z) <- axes' ((x, y, z) - origin), in place; axes row-major 3 x 3 (columns t1, t2, n).
+void to_frame(const float* axes, const float* origin, float* x, float* y, float* z, std::size_t n);
+
+/// Sums of x, y, z, xx, xy, xz, yy, yz, zz.
+void second_moments(const float* x, const float* y, const float* z, std::size_t n, float out[9]);
+
+/// out[i] = sum over k in [-reach, reach] of taps[k] in[i + k stride], for i in [0, n).
+/// @param taps points at the middle of 2 reach + 1 values
+void convolve(const float* in, float* out, std::size_t n, int stride, const float* taps,
+              int reach);
+
+/// Appends to the outputs the points of a run that lie within `limit` of the centre.
+/// dx = float((x[i] - centre[0]) * scale) and so on; kept when dx^2 + dy^2 + dz^2 <= limit^2.
+/// @param first index of the first point of the run  @returns how many were appended
+/// The outputs need room for n more values each.
+std::size_t gather_ball(const double* x, const double* y, const double* z, std::size_t n,
+                        const double centre[3], double scale, float limit, std::size_t first,
+                        float* out_x, float* out_y, float* out_z, unsigned* out_index);
+
+}  // namespace lpf::kernels

@@ -1,0 +1,172 @@
+// The operators that assign one target point to each pattern point.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/field/probing.h"
+
+namespace lpf {
+namespace {
+
+void set_displacement(const Pattern& pattern, const TargetArea& target, int node,
+                      std::size_t point, float* v) {
+    const int stride = pattern.padded_size();
+    v[node] = target.x[point] - pattern.channel(0)[node];
+    v[stride + node] = target.y[point] - pattern.channel(1)[node];
+    v[2 * stride + node] = target.z[point] - pattern.channel(2)[node];
+}
+
+/// Target points binned into square cells over the plane, for a nearest search ring by ring.
+class PlaneBins {
+public:
+    PlaneBins(const TargetArea& target, std::vector<int>& first, std::vector<int>& members)
+        : target_(target), first_(first), members_(members) {
+        for (std::size_t i = 0; i < target.size; ++i) {
+            reach_ = std::max({reach_, std::abs(target.x[i]), std::abs(target.y[i])});
+        }
+        // About two points a cell.
+        side_ = std::clamp(static_cast<int>(std::sqrt(static_cast<float>(target.size) / 2)), 1, 64);
+        inverse_cell_ = static_cast<float>(side_) / (2 * reach_);
+        sort_points();
+    }
+
+    /// The point nearest to (x, y) in the plane; of equally near ones the first of the target area.
+    [[nodiscard]] int nearest(float x, float y) const {
+        const int column = cell_of(x);
+        const int row = cell_of(y);
+        Best best;
+        for (int ring = 0; ring < side_; ++ring) {
+            visit_ring(column, row, ring, x, y, best);
+            // Every cell beyond this ring is at least that far from (x, y).
+            const float free = static_cast<float>(ring) / inverse_cell_ + border_distance(x, y);
+            if (best.point >= 0 && best.squared <= free * free) break;
+        }
+        return best.point;
+    }
+
+private:
+    struct Best {
+        int point = -1;
+        float squared = std::numeric_limits<float>::infinity();
+    };
+
+    [[nodiscard]] int cell_of(float coordinate) const {
+        return std::clamp(static_cast<int>((coordinate + reach_) * inverse_cell_), 0, side_ - 1);
+    }
+
+    /// Distance of (x, y) to the nearest side of its own cell; 0 if it was clamped into it.
+    [[nodiscard]] float border_distance(float x, float y) const {
+        const float inside_x = (x + reach_) - static_cast<float>(cell_of(x)) / inverse_cell_;
+        const float inside_y = (y + reach_) - static_cast<float>(cell_of(y)) / inverse_cell_;
+        const float cell = 1 / inverse_cell_;
+        return std::max(0.0F, std::min({inside_x, inside_y, cell - inside_x, cell - inside_y}));
+    }
+
+    void sort_points() {
+        first_.assign(static_cast<std::size_t>(side_ * side_) + 1, 0);
+        members_.resize(2 * target_.size);
+        int* cell_of_point = members_.data() + target_.size;
+        for (std::size_t i = 0; i < target_.size; ++i) {
+            cell_of_point[i] = cell_of(target_.y[i]) * side_ + cell_of(target_.x[i]);
+            ++first_[static_cast<std::size_t>(cell_of_point[i]) + 1];
+        }
+        for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
+        // Backwards, each cell filled from its end: first_[c + 1] sinks to the start of cell c.
+        for (std::size_t i = target_.size; i-- > 0;) {
+            const auto end = static_cast<std::size_t>(cell_of_point[i]) + 1;
+            members_[static_cast<std::size_t>(--first_[end])] = static_cast<int>(i);
+        }
+        std::rotate(first_.begin(), first_.begin() + 1, first_.end());
+        first_.back() = static_cast<int>(target_.size);
+    }
+
+    void visit_ring(int column, int row, int ring, float x, float y, Best& best) const {
+        const int top = std::max(row - ring, 0);
+        const int bottom = std::min(row + ring, side_ - 1);
+        for (int j = top; j <= bottom; ++j) {
+            const bool full = std::abs(j - row) == ring;
+            const int step = full || ring == 0 ? 1 : 2 * ring;
+            for (int i = column - ring; i <= column + ring; i += step) {
+                if (i >= 0 && i < side_) visit_cell(j * side_ + i, x, y, best);
+            }
+        }
+    }
+
+    void visit_cell(int cell, float x, float y, Best& best) const {
+        const auto c = static_cast<std::size_t>(cell);
+        for (int k = first_[c]; k < first_[c + 1]; ++k) {
+            const int point = members_[static_cast<std::size_t>(k)];
+            const auto p = static_cast<std::size_t>(point);
+            const float dx = target_.x[p] - x;
+            const float dy = target_.y[p] - y;
+            const float squared = dx * dx + dy * dy;
+            if (squared < best.squared || (squared == best.squared && point < best.point)) {
+                best = {point, squared};
+            }
+        }
+    }
+
+    const TargetArea& target_;
+    std::vector<int>& first_;
+    std::vector<int>& members_;
+    float reach_ = 1e-6F;
+    int side_ = 1;
+    float inverse_cell_ = 1.0F;
+};
+
+class OrthogonalProbing final : public ProbingOperator {
+public:
+    explicit OrthogonalProbing(const Pattern& pattern) : pattern_(pattern) {}
+
+    void probe(const Frame&, bool, ProbeScratch& scratch, float* v) const override {
+        std::fill_n(v, 3 * pattern_.padded_size(), 0.0F);
+        if (scratch.target.size == 0) return;
+        const PlaneBins bins(scratch.target, scratch.cells, scratch.cells2);
+        for (int i = 0; i < pattern_.size(); ++i) {
+            const int point = bins.nearest(pattern_.channel(0)[i], pattern_.channel(1)[i]);
+            set_displacement(pattern_, scratch.target, i, static_cast<std::size_t>(point), v);
+        }
+    }
+
+private:
+    Pattern pattern_;
+};
+
+class NearestPointProbing final : public ProbingOperator {
+public:
+    explicit NearestPointProbing(const Pattern& pattern) : pattern_(pattern) {}
+
+    void probe(const Frame&, bool, ProbeScratch& scratch, float* v) const override {
+        std::fill_n(v, 3 * pattern_.padded_size(), 0.0F);
+        const TargetArea& target = scratch.target;
+        for (int i = 0; i < pattern_.size() && target.size > 0; ++i) {
+            const Eigen::Vector3f u = pattern_.point(i);
+            std::size_t best = 0;
+            float best_squared = std::numeric_limits<float>::infinity();
+            for (std::size_t k = 0; k < target.size; ++k) {
+                const float squared =
+                    (Eigen::Vector3f(target.x[k], target.y[k], target.z[k]) - u).squaredNorm();
+                if (squared < best_squared) {
+                    best = k;
+                    best_squared = squared;
+                }
+            }
+            set_displacement(pattern_, target, i, best, v);
+        }
+    }
+
+private:
+    Pattern pattern_;
+};
+
+}  // namespace
+
+std::unique_ptr<ProbingOperator> make_orthogonal_probing(const Pattern& pattern) {
+    return std::make_unique<OrthogonalProbing>(pattern);
+}
+
+std::unique_ptr<ProbingOperator> make_nearest_point_probing(const Pattern& pattern) {
+    return std::make_unique<NearestPointProbing>(pattern);
+}
+
+}  // namespace lpf

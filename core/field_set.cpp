@@ -1,0 +1,188 @@
+#include "core/field_set.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/learn/pose.h"
+#include "core/shape/poisson_sampling.h"
+
+namespace lpf {
+namespace {
+
+constexpr std::size_t kFieldsPerChunk = 128;
+
+/// Cells of this share of the radius make a ball of 1.1 radii span few cells with little waste.
+constexpr double kCellPerRadius = 0.55;
+
+/// Samples of a mesh lie this close, so that no triangle of a target area is missed.
+constexpr double kMeshSampleSpacing = 0.1;
+
+MeshSamples mesh_samples(const Shape& shape, const AnalysisParams& params) {
+    if (params.probing != ProbingKind::NearestTriangle) return {};
+    if (!shape.is_mesh()) {
+        throw Error(ErrorCode::InvalidParameter,
+                    "Probing on the nearest triangle needs a mesh; this shape has no triangles.",
+                    "probing");
+    }
+    return sample_mesh(shape, kMeshSampleSpacing * params.radius);
+}
+
+}  // namespace
+
+Pattern make_pattern(const AnalysisParams& params) {
+    if (params.initial_dictionary) return params.initial_dictionary->pattern();
+    switch (params.pattern.kind) {
+        case PatternKind::Grid: return Pattern::grid(Pattern::grid_size_for(params.pattern.points));
+        case PatternKind::RandomDisk:
+            return Pattern::random_disk(params.pattern.points, params.random_seed);
+        case PatternKind::Custom: return Pattern::from_points(params.pattern.offsets);
+    }
+    throw Error(ErrorCode::Internal, "Unknown kind of pattern.");
+}
+
+FieldSet::FieldSet(const Shape& shape, const AnalysisParams& params, const Execution& execution)
+    : pattern_(make_pattern(params)),
+      samples_(mesh_samples(shape, params)),
+      grid_(samples_.triangle.empty() ? shape.cloud.points : samples_.points,
+            kCellPerRadius * params.radius),
+      target_radius_(static_cast<float>(params.target_radius)) {
+    switch (params.probing) {
+        case ProbingKind::AsOrthogonalAsPossible:
+            operator_ = make_orthogonal_probing(pattern_);
+            break;
+        case ProbingKind::NoiseAware:
+            operator_ = make_noise_aware_probing(pattern_, params.smoothing);
+            break;
+        case ProbingKind::NearestPoint: operator_ = make_nearest_point_probing(pattern_); break;
+        case ProbingKind::NearestTriangle:
+            operator_ = make_nearest_triangle_probing(pattern_, shape, samples_, grid_);
+            break;
+    }
+    place(samples_.triangle.empty() ? shape.cloud.points : samples_.points, params, execution);
+}
+
+void FieldSet::place(const Points& targets, const AnalysisParams& params,
+                     const Execution& execution) {
+    const double spacing = params.seed_spacing * params.radius;
+    std::vector<std::uint8_t> chosen(grid_.size(), 0);
+    for (const std::uint32_t i :
+         poisson_disk_subset(targets, spacing, params.random_seed, execution)) {
+        chosen[i] = 1;
+    }
+    // In the order of the grid, so that neighbours in space are neighbours in work.
+    for (const std::uint32_t i : grid_.order()) {
+        if (!chosen[i]) continue;
+        Frame frame;
+        frame.centre = targets.col(i);
+        frame.radius = params.radius;
+        frames.push_back(frame);
+    }
+    dimensions.assign(frames.size(), kTooFewPoints);
+
+    parallel_for(execution, "place", "fields", size(), kFieldsPerChunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                     TargetArea target;
+                     for (std::size_t j = begin; j < end; ++j) {
+                         grid_.gather(frames[j], target_radius_, target);
+                         const PrincipalDirections principal = principal_directions(target);
+                         dimensions[j] = local_dimension(principal, target.size);
+                         if (params.principal_frames) {
+                             align_with_principal_directions(principal, frames[j]);
+                         } else {
+                             Random random(params.random_seed, j);
+                             rotate_randomly(random, frames[j]);
+                         }
+                     }
+                 });
+}
+
+FieldSet::Worker FieldSet::make_worker(int atoms) const {
+    Worker worker;
+    worker.field.resize(3 * static_cast<std::size_t>(pattern_.padded_size()));
+    worker.decoded.resize(worker.field.size());
+    worker.correlations.resize(static_cast<std::size_t>(atoms));
+    return worker;
+}
+
+std::size_t FieldSet::chunks() const { return chunk_count(size(), kFieldsPerChunk); }
+
+void FieldSet::gather(std::size_t j, TargetArea& target) const {
+    grid_.gather(frames[j], target_radius_, target);
+    target.to_frame(frames[j]);
+}
+
+void FieldSet::probe(std::size_t j, Worker& worker) const {
+    gather(j, worker.probe.target);
+    operator_->probe(frames[j], dimensions[j] == kCurve, worker.probe, worker.field.data());
+}
+
+void FieldSet::for_each_probed(std::string_view phase, const Execution& execution, int atoms,
+                               const Body& body) const {
+    parallel_for(execution, phase, "fields", size(), kFieldsPerChunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                     Worker worker = make_worker(atoms);
+                     for (std::size_t j = begin; j < end; ++j) {
+                         if (dimensions[j] == kTooFewPoints) continue;
+                         probe(j, worker);
+                         body(j, worker, chunk);
+                     }
+                 });
+}
+
+void FieldSet::for_each_target(std::string_view phase, const Execution& execution,
+                               const Body& body) const {
+    parallel_for(execution, phase, "fields", size(), kFieldsPerChunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                     Worker worker = make_worker(0);
+                     for (std::size_t j = begin; j < end; ++j) {
+                         if (dimensions[j] == kTooFewPoints) continue;
+                         gather(j, worker.probe.target);
+                         body(j, worker, chunk);
+                     }
+                 });
+}
+
+std::vector<std::size_t> FieldSet::draw_sample(int count, std::uint64_t random_seed) const {
+    std::vector<std::size_t> usable;
+    for (std::size_t j = 0; j < size(); ++j) {
+        if (dimensions[j] != kTooFewPoints) usable.push_back(j);
+    }
+    const auto wanted = std::min(static_cast<std::size_t>(count), usable.size());
+    Random random(random_seed, 0x5a3);
+    for (std::size_t i = 0; i < wanted && wanted < usable.size(); ++i) {
+        std::swap(usable[i], usable[i + random.below(usable.size() - i)]);
+    }
+    usable.resize(wanted);
+    std::sort(usable.begin(), usable.end());
+    return usable;
+}
+
+std::vector<float> FieldSet::probe_sample(const std::vector<std::size_t>& sample,
+                                          const Execution& execution) const {
+    const std::size_t stride = 3 * static_cast<std::size_t>(pattern_.padded_size());
+    std::vector<float> fields(sample.size() * stride);
+    parallel_for(execution, "learn", "fields", sample.size(), kFieldsPerChunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                     Worker worker = make_worker(0);
+                     for (std::size_t i = begin; i < end; ++i) {
+                         probe(sample[i], worker);
+                         std::ranges::copy(worker.field, fields.begin() +
+                                               static_cast<std::ptrdiff_t>(i * stride));
+                     }
+                 });
+    return fields;
+}
+
+void FieldSet::optimise_poses(int passes, const Execution& execution) {
+    for (int pass = 0; pass < passes; ++pass) {
+        const Execution part = part_of(execution, static_cast<double>(pass) / passes,
+                                       static_cast<double>(pass + 1) / passes);
+        // Frame j changes only in its own call.
+        for_each_probed("pose", part, 0, [this](std::size_t j, Worker& worker, std::size_t) {
+            apply_pose(fit_pose(pattern_, worker.field.data(), worker.decoded.data()), frames[j]);
+        });
+    }
+}
+
+}  // namespace lpf

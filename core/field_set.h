@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "core/analysis.h"
+#include "core/field/probing.h"
+#include "core/field/target_area.h"
+
+namespace lpf {
+
+/// The LPFs of a shape while they are worked on: poses over one pattern, and the shape prepared for
+/// probing. The fields themselves (V, 3M x N) are never stored; each pass probes them anew.
+class FieldSet {
+public:
+    /// Places LPFs all over the shape (paper Sec. 3.1): seeds, target areas, first poses.
+    /// @param shape must outlive the set
+    FieldSet(const Shape& shape, const AnalysisParams& params, const Execution& execution);
+
+    /// What a thread needs to work on one LPF after the other.
+    struct Worker {
+        ProbeScratch probe;
+        std::vector<float> field;     ///< V_j, three channels of pattern.padded_size()
+        std::vector<float> decoded;   ///< D alpha_j
+        std::vector<float> correlations;
+    };
+
+    /// Runs body(j, worker, chunk) for every LPF with a usable target area, `worker.field` freshly probed
+    /// and `worker.probe.target` in frame coordinates. `chunk` numbers the fixed chunks of LPFs.
+    using Body = std::function<void(std::size_t j, Worker& worker, std::size_t chunk)>;
+    /// @param atoms room for that many correlations in the worker
+    void for_each_probed(std::string_view phase, const Execution& execution, int atoms,
+                         const Body& body) const;
+
+    /// The same without probing: only the target area is gathered.
+    void for_each_target(std::string_view phase, const Execution& execution,
+                         const Body& body) const;
+
+    /// At most `count` usable LPFs, drawn at random, ascending; all of them if there are no more.
+    [[nodiscard]] std::vector<std::size_t> draw_sample(int count, std::uint64_t random_seed) const;
+
+    /// The fields of some LPFs as they are now, side by side.
+    [[nodiscard]] std::vector<float> probe_sample(const std::vector<std::size_t>& sample,
+                                                  const Execution& execution) const;
+
+    /// As-orthogonal-as-possible poses (Sec. 2.2): alternates probing with the rigid motion that
+    /// minimises the norms of all v_i.
+    void optimise_poses(int passes, const Execution& execution);
+
+    [[nodiscard]] std::size_t size() const { return frames.size(); }
+    [[nodiscard]] std::size_t chunks() const;
+    [[nodiscard]] const Pattern& pattern() const { return pattern_; }
+    [[nodiscard]] const PointGrid& grid() const { return grid_; }
+
+    std::vector<Frame> frames;
+    std::vector<std::uint8_t> dimensions;  ///< Dimension of each
+
+private:
+    void place(const Points& targets, const AnalysisParams& params, const Execution& execution);
+    [[nodiscard]] Worker make_worker(int atoms) const;
+    void gather(std::size_t j, TargetArea& target) const;
+    void probe(std::size_t j, Worker& worker) const;
+
+    Pattern pattern_;
+    MeshSamples samples_;  // of a mesh that is probed as one
+    PointGrid grid_;
+    std::unique_ptr<ProbingOperator> operator_;
+    float target_radius_;
+};
+
+/// The pattern that the parameters ask for. @throws Error{InvalidParameter}
+[[nodiscard]] Pattern make_pattern(const AnalysisParams& params);
+
+/// The joint loop over LPFs that are in place (Sec. 3.2); `analyze` without the placing.
+[[nodiscard]] AnalysisResult analyze(FieldSet& fields, const AnalysisParams& params,
+                                     const Execution& execution);
+
+}  // namespace lpf

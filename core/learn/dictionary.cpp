@@ -1,0 +1,95 @@
+#include "core/learn/dictionary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/kernels.h"
+
+namespace lpf {
+
+Dictionary::Dictionary(Pattern pattern, int atoms)
+    : pattern_(std::move(pattern)),
+      atoms_(atoms),
+      stride_(3 * static_cast<std::size_t>(pattern_.padded_size())),
+      values_(stride_ * static_cast<std::size_t>(atoms), 0.0F) {}
+
+std::span<float> Dictionary::atom(int k) {
+    return {values_.data() + static_cast<std::size_t>(k) * stride_, stride_};
+}
+
+std::span<const float> Dictionary::atom(int k) const {
+    return {values_.data() + static_cast<std::size_t>(k) * stride_, stride_};
+}
+
+void Dictionary::decode(std::span<const float> code, std::span<float> out) const {
+    std::fill(out.begin(), out.end(), 0.0F);
+    for (int k = 0; k < atoms_; ++k) {
+        const float coefficient = code[static_cast<std::size_t>(k)];
+        if (coefficient != 0.0F) {
+            kernels::add_scaled(coefficient, atom(k).data(), out.data(), stride_);
+        }
+    }
+}
+
+std::vector<float> Dictionary::gram() const {
+    const auto d = static_cast<std::size_t>(atoms_);
+    std::vector<float> gram(d * d);
+    for (std::size_t k = 0; k < d; ++k) {
+        kernels::multiply_rows(data(), d, stride_, data() + k * stride_, gram.data() + k * d);
+    }
+    return gram;
+}
+
+DictionaryStatistics::DictionaryStatistics(int atoms, std::size_t stride)
+    : atoms_(static_cast<std::size_t>(atoms)),
+      stride_(stride),
+      a_(atoms_ * atoms_, 0.0F),
+      b_(atoms_ * stride, 0.0F) {}
+
+void DictionaryStatistics::add(std::span<const float> code, std::span<const float> field) {
+    for (std::size_t k = 0; k < atoms_; ++k) {
+        if (code[k] == 0.0F) continue;
+        kernels::add_scaled(code[k], code.data(), a_.data() + k * atoms_, atoms_);
+        kernels::add_scaled(code[k], field.data(), b_.data() + k * stride_, stride_);
+    }
+}
+
+void DictionaryStatistics::add(const DictionaryStatistics& other) {
+    kernels::add_scaled(1.0F, other.a_.data(), a_.data(), a_.size());
+    kernels::add_scaled(1.0F, other.b_.data(), b_.data(), b_.size());
+}
+
+std::vector<int> DictionaryStatistics::update(Dictionary& dictionary) const {
+    std::vector<int> unused;
+    std::vector<float> step(stride_);
+    for (std::size_t k = 0; k < atoms_; ++k) {
+        const float weight = a_[k * atoms_ + k];
+        if (weight < 1e-12F) {
+            unused.push_back(static_cast<int>(k));
+            continue;
+        }
+        std::copy_n(b_.data() + k * stride_, stride_, step.begin());
+        for (std::size_t j = 0; j < atoms_; ++j) {
+            const float shared = a_[k * atoms_ + j];
+            if (shared == 0.0F) continue;
+            kernels::add_scaled(-shared, dictionary.data() + j * stride_, step.data(), stride_);
+        }
+        const std::span<float> atom = dictionary.atom(static_cast<int>(k));
+        kernels::add_scaled(1.0F / weight, step.data(), atom.data(), stride_);
+        const float norm = std::sqrt(kernels::dot(atom.data(), atom.data(), stride_));
+        if (norm > 1.0F) {
+            for (float& value : atom) value /= norm;
+        }
+    }
+    return unused;
+}
+
+void set_atom(Dictionary& dictionary, int atom, std::span<const float> field) {
+    const float norm = std::sqrt(kernels::dot(field.data(), field.data(), field.size()));
+    const float scale = norm > 0 ? 1 / norm : 0.0F;
+    std::transform(field.begin(), field.end(), dictionary.atom(atom).begin(),
+                   [scale](float value) { return scale * value; });
+}
+
+}  // namespace lpf

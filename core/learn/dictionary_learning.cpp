@@ -1,0 +1,74 @@
+#include "core/learn/dictionary_learning.h"
+
+#include <algorithm>
+
+#include "core/base/kernels.h"
+#include "core/base/random.h"
+
+namespace lpf {
+namespace {
+
+constexpr std::size_t kFieldsPerChunk = 256;
+
+/// Codes the whole sample, and sums up what the dictionary update needs, chunk by chunk in order.
+DictionaryStatistics encode_sample(const FieldSample& sample, const Coder& coder,
+                                   const Dictionary& dictionary, SparseCodes& codes,
+                                   const Execution& execution) {
+    const std::vector<float> gram = dictionary.gram();
+    std::vector<DictionaryStatistics> parts(
+        chunk_count(sample.count(), kFieldsPerChunk),
+        DictionaryStatistics(dictionary.atoms(), dictionary.stride()));
+    parallel_for(execution, "learn", "fields", sample.count(), kFieldsPerChunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                     std::vector<float> correlations(static_cast<std::size_t>(dictionary.atoms()));
+                     for (std::size_t i = begin; i < end; ++i) {
+                         coder.encode(dictionary, gram, sample[i], correlations, codes[i]);
+                         parts[chunk].add(codes[i], sample[i]);
+                     }
+                 });
+    for (std::size_t c = 1; c < parts.size(); ++c) parts[0].add(parts[c]);
+    return std::move(parts.front());
+}
+
+}  // namespace
+
+void Coder::encode(const Dictionary& dictionary, std::span<const float> gram,
+                   std::span<const float> field, std::span<float> correlations,
+                   std::span<float> code) const {
+    kernels::multiply_rows(dictionary.data(), static_cast<std::size_t>(dictionary.atoms()),
+                           dictionary.stride(), field.data(), correlations.data());
+    const LassoProblem problem{gram, correlations, lambda};
+    if (method == LassoMethod::Lars) {
+        solve_lars(problem, code);
+    } else {
+        solve_coordinate_descent(problem, code);
+    }
+}
+
+Dictionary draw_dictionary(const Pattern& pattern, int atoms, const FieldSample& sample,
+                           std::uint64_t random_seed) {
+    Dictionary dictionary(pattern, atoms);
+    Random random(random_seed, 0xd1c7);
+    for (int k = 0; k < atoms && sample.count() > 0; ++k) {
+        set_atom(dictionary, k, sample[random.below(sample.count())]);
+    }
+    return dictionary;
+}
+
+void learn_dictionary(const FieldSample& sample, const Coder& coder, int rounds,
+                      std::uint64_t random_seed, Dictionary& dictionary, SparseCodes& codes,
+                      const Execution& execution) {
+    if (sample.count() == 0) return;
+    Random random(random_seed, 0x1ea2);
+    for (int round = 0; round < rounds; ++round) {
+        const Execution part = part_of(execution, static_cast<double>(round) / rounds,
+                                       static_cast<double>(round + 1) / rounds);
+        const DictionaryStatistics statistics =
+            encode_sample(sample, coder, dictionary, codes, part);
+        for (const int atom : statistics.update(dictionary)) {
+            set_atom(dictionary, atom, sample[random.below(sample.count())]);
+        }
+    }
+}
+
+}  // namespace lpf

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/base/parallel.h"
+#include "core/learn/dictionary.h"
+#include "core/learn/lasso.h"
+#include "core/learn/sparse_code.h"
+
+namespace lpf {
+
+/// How fields are turned into codes (paper Eq. 3 with the dictionary fixed).
+struct Coder {
+    float lambda = 0.2F;
+    LassoMethod method = LassoMethod::CoordinateDescent;
+
+    /// @param gram         dictionary.gram()
+    /// @param correlations room for d values
+    /// @param code         in: where to start from; out: the sparse code of `field`
+    void encode(const Dictionary& dictionary, std::span<const float> gram,
+                std::span<const float> field, std::span<float> correlations,
+                std::span<float> code) const;
+};
+
+/// Some LPFs' fields, side by side: `count` x stride floats.
+struct FieldSample {
+    std::vector<float> fields;
+    std::size_t stride = 0;
+    [[nodiscard]] std::size_t count() const { return stride ? fields.size() / stride : 0; }
+    [[nodiscard]] std::span<const float> operator[](std::size_t i) const {
+        return {fields.data() + i * stride, stride};
+    }
+};
+
+/// A dictionary of randomly drawn fields (paper Sec. 3.3), each with norm 1.
+[[nodiscard]] Dictionary draw_dictionary(const Pattern& pattern, int atoms,
+                                         const FieldSample& sample, std::uint64_t random_seed);
+
+/// Alternates sparse coding and dictionary update on the sample (paper Sec. 3.3). Neither step raises
+/// the energy of the sample. Atoms that nothing uses are drawn anew from the sample.
+/// @param codes count x d; in: where to start from, out: codes for the learned dictionary
+void learn_dictionary(const FieldSample& sample, const Coder& coder, int rounds,
+                      std::uint64_t random_seed, Dictionary& dictionary, SparseCodes& codes,
+                      const Execution& execution);
+
+}  // namespace lpf

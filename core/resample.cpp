@@ -1,0 +1,236 @@
+#include "core/resample.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/consensus.h"
+#include "core/field_set.h"
+#include "core/shape/spatial_index.h"
+
+namespace lpf {
+namespace {
+
+/// Points of a saturated random packing at least tau apart, for each tau^2 of area.
+constexpr double kPackingDensity = 0.7;
+constexpr double kCountTolerance = 0.02;
+constexpr int kMostSearchRounds = 6;
+
+/// Candidates lie this dense at least [tau_p], so that the packing is nearly saturated.
+constexpr double kCandidateStep = 1.0;
+constexpr int kMostSubdivisions = 16;
+
+/// Places of the plane at which an LPF proposes a point: the nodes of the pattern and, where they are too
+/// far apart for the spacing, places between them. Ordered from the centre outwards.
+std::vector<Eigen::Vector2f> proposal_places(const Pattern& pattern, double radius,
+                                             double spacing) {
+    const double step = static_cast<double>(pattern.step()) * radius;
+    const int cuts = std::clamp(static_cast<int>(std::ceil(step / (kCandidateStep * spacing) - 1e-9)),
+                                1, kMostSubdivisions);
+    std::vector<Eigen::Vector2f> places;
+    if (cuts == 1) {
+        for (const int i : pattern.by_distance()) places.push_back(pattern.point(i).head<2>());
+        return places;
+    }
+    const float fine = pattern.step() / static_cast<float>(cuts);
+    const int half = static_cast<int>(1.0F / fine);
+    for (int j = -half; j <= half; ++j) {
+        for (int i = -half; i <= half; ++i) {
+            const Eigen::Vector2f place(fine * static_cast<float>(i), fine * static_cast<float>(j));
+            if (place.norm() < 1) places.push_back(place);
+        }
+    }
+    std::ranges::stable_sort(places, {}, [](const Eigen::Vector2f& p) { return p.squaredNorm(); });
+    return places;
+}
+
+/// Whether target points lie near places of the plane: cells of one support distance.
+class Support {
+public:
+    Support(const TargetArea& target, float distance) : distance_(distance) {
+        side_ = static_cast<int>(std::min(256.0F, std::ceil(2 * kReach / distance))) + 1;
+        cells_.resize(static_cast<std::size_t>(side_ * side_));
+        for (std::size_t i = 0; i < target.size; ++i) {
+            cells_[static_cast<std::size_t>(cell_of(target.y[i]) * side_ + cell_of(target.x[i]))]
+                .emplace_back(target.x[i], target.y[i]);
+        }
+    }
+
+    [[nodiscard]] bool covers(float x, float y) const {
+        for (int j = std::max(0, cell_of(y) - 1); j <= std::min(side_ - 1, cell_of(y) + 1); ++j) {
+            for (int i = std::max(0, cell_of(x) - 1); i <= std::min(side_ - 1, cell_of(x) + 1);
+                 ++i) {
+                for (const Eigen::Vector2f& p : cells_[static_cast<std::size_t>(j * side_ + i)]) {
+                    if ((p - Eigen::Vector2f(x, y)).squaredNorm() <= distance_ * distance_) {
+                        return true;
+                    }
+                }
+            }
+        }
+        return false;
+    }
+
+private:
+    static constexpr float kReach = 2.0F;  // target areas are no wider
+
+    [[nodiscard]] int cell_of(float coordinate) const {
+        const float cell = std::max(distance_, 2 * kReach / 256.0F);
+        return std::clamp(static_cast<int>((coordinate + kReach) / cell), 0, side_ - 1);
+    }
+
+    float distance_;
+    int side_ = 1;
+    std::vector<std::vector<Eigen::Vector2f>> cells_;
+};
+
+Eigen::Vector3f interpolate(const Pattern& pattern, const std::vector<float>& field,
+                            const Eigen::Vector2f& place) {
+    const Pattern::Stencil stencil = pattern.stencil(place.x(), place.y());
+    const int stride = pattern.padded_size();
+    Eigen::Vector3f value(place.x(), place.y(), 0.0F);
+    for (int k = 0; k < 4; ++k) {
+        const float* node = field.data() + stencil.node[k];
+        value += stencil.weight[k] * Eigen::Vector3f(node[0], node[stride], node[2 * stride]);
+    }
+    return value;
+}
+
+/// Eq. 7 for every LPF: the places of its pattern, moved by its reconstructed field.
+Candidates propose(const FieldSet& fields, const AnalysisResult& analysis, double spacing,
+                   double support, const Execution& execution) {
+    const auto places = proposal_places(fields.pattern(), analysis.radius, spacing);
+    std::vector<std::vector<Eigen::Vector3f>> proposals(fields.size());
+    fields.for_each_target(
+        "propose", execution, [&](std::size_t j, FieldSet::Worker& worker, std::size_t) {
+            analysis.dictionary.decode(analysis.codes[j], worker.decoded);
+            const float reach = static_cast<float>(
+                std::max(support, spacing / 2) / fields.frames[j].radius);
+            const Support supported(worker.probe.target, std::max(reach, 1e-3F));
+            proposals[j].assign(places.size(), Eigen::Vector3f::Constant(NAN));
+            for (std::size_t i = 0; i < places.size(); ++i) {
+                const Eigen::Vector3f p =
+                    interpolate(fields.pattern(), worker.decoded, places[i]);
+                if (support > 0 && !supported.covers(p.x(), p.y())) continue;
+                proposals[j][i] = p;
+            }
+        });
+    // All centres first, then outwards: what an LPF knows best is considered first.
+    Candidates candidates;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        for (std::size_t j = 0; j < fields.size(); ++j) {
+            if (proposals[j].empty() || std::isnan(proposals[j][i].x())) continue;
+            candidates.points.push_back(fields.frames[j].to_world(proposals[j][i]));
+            candidates.field.push_back(static_cast<std::uint32_t>(j));
+        }
+    }
+    return candidates;
+}
+
+/// Spacing first, then count: the number of points falls with the square of the spacing on a surface,
+/// linearly on a curve; the exponent is taken from the last two tries.
+class SpacingSearch {
+public:
+    SpacingSearch(double first, std::size_t wanted)
+        : spacing_(first), wanted_(static_cast<double>(wanted)) {}
+
+    [[nodiscard]] double spacing() const { return spacing_; }
+
+    /// @returns whether `count` points at the current spacing are near enough to those wanted
+    bool accepts(std::size_t count) {
+        const double found = std::max<double>(1, static_cast<double>(count));
+        if (std::abs(found - wanted_) <= kCountTolerance / 2 * wanted_) return true;
+        if (last_count_ > 0 && found != last_count_) {
+            exponent_ = std::clamp(std::log(found / last_count_) / std::log(last_spacing_ / spacing_),
+                                   0.7, 3.0);
+        }
+        last_spacing_ = spacing_;
+        last_count_ = found;
+        spacing_ *= std::pow(found / wanted_, 1 / exponent_);
+        return false;
+    }
+
+private:
+    double spacing_;
+    double wanted_;
+    double exponent_ = 2.0;
+    double last_spacing_ = 0.0;
+    double last_count_ = 0.0;
+};
+
+std::vector<std::uint32_t> nearest_sources(const Points& input, const Points& points,
+                                           const Execution& execution) {
+    const SpatialIndex index(input);
+    std::vector<std::uint32_t> source(static_cast<std::size_t>(points.cols()));
+    parallel_for(execution, "attributes", "points", source.size(), 4096,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                     for (std::size_t i = begin; i < end; ++i) {
+                         source[i] =
+                             index.nearest(points.col(static_cast<Eigen::Index>(i)), 1)[0].index;
+                     }
+                 });
+    return source;
+}
+
+void validate(const ResampleParams& params) {
+    validate(params.analysis);
+    if ((params.target_spacing > 0) == (params.target_points > 0)) {
+        throw Error(ErrorCode::InvalidParameter,
+                    "Resampling needs either a target spacing or a target number of points.",
+                    "targetSpacing");
+    }
+}
+
+/// First guess of tau_p for a number of points, from the area that the disks of all LPFs suggest: seeds are
+/// a packing themselves.
+double guess_spacing(const FieldSet& fields, const AnalysisParams& params, std::size_t wanted) {
+    const double seeds_apart = std::max(params.seed_spacing, 0.05) * params.radius;
+    const double area = static_cast<double>(fields.size()) * seeds_apart * seeds_apart;
+    return std::sqrt(area / static_cast<double>(wanted));
+}
+
+}  // namespace
+
+ResampleResult resample(const Shape& shape, const ResampleParams& params,
+                        const Execution& execution) {
+    validate(params);
+    check_points(shape.cloud.points);
+    Shape smooth{{shape.cloud.points, {}}, shape.triangles};
+    if (params.denoise) {
+        smooth.cloud.points =
+            denoise(shape, *params.denoise, part_of(execution, 0.0, 0.4)).points;
+    }
+    const Execution rest = part_of(execution, params.denoise ? 0.4 : 0.0, 1.0);
+    FieldSet fields(smooth, params.analysis, part_of(rest, 0.0, 0.02));
+    fields.optimise_poses(params.analysis.pose_iterations, part_of(rest, 0.02, 0.1));
+    AnalysisResult analysis = analyze(fields, params.analysis, part_of(rest, 0.1, 0.5));
+
+    const bool by_count = params.target_points > 0;
+    SpacingSearch search(by_count ? guess_spacing(fields, params.analysis, params.target_points)
+                                  : params.target_spacing,
+                         params.target_points);
+    Candidates found;
+    double spacing = search.spacing();
+    const int rounds = by_count ? kMostSearchRounds : 1;
+    for (int round = 0; round < rounds; ++round) {
+        const double low = 0.5 + 0.4 * round / rounds;
+        const double high = 0.5 + 0.4 * (round + 1) / rounds;
+        spacing = search.spacing();
+        const Candidates candidates = propose(fields, analysis, spacing, params.support,
+                                              part_of(rest, low, (low + high) / 2));
+        found = find_consensus(candidates, spacing, part_of(rest, (low + high) / 2, high));
+        if (by_count && search.accepts(found.size())) break;
+    }
+
+    ResampleResult result{{}, {}, std::move(found.field), spacing, std::move(analysis)};
+    result.points.resize(3, static_cast<Eigen::Index>(found.points.size()));
+    for (std::size_t i = 0; i < found.points.size(); ++i) {
+        result.points.col(static_cast<Eigen::Index>(i)) = found.points[i];
+    }
+    result.source =
+        nearest_sources(shape.cloud.points, result.points, part_of(rest, 0.9, 1.0));
+    return result;
+}
+
+}  // namespace lpf

@@ -1,0 +1,126 @@
+#include "core/shape/noise.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/base/random.h"
+#include "core/shape/spatial_index.h"
+
+namespace lpf {
+namespace {
+
+constexpr std::size_t kSpacingSample = 4096;
+constexpr std::size_t kNoiseSample = 1024;
+constexpr std::size_t kPointsInBall = 150;
+constexpr std::size_t kFewestForPlane = 8;
+
+/// A ball narrower than this many sigma cuts the noise off and makes it look smaller than it is.
+constexpr double kSigmasInBall = 3.0;
+constexpr int kRounds = 6;
+constexpr std::size_t kMostInBall = 3000;
+
+double median(std::vector<double>& values) {
+    if (values.empty()) return 0.0;
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// Up to `count` points spread over the cloud, the same for every run.
+std::vector<Eigen::Index> sample(const Points& points, std::size_t count) {
+    const auto n = static_cast<std::size_t>(points.cols());
+    std::vector<Eigen::Index> chosen;
+    Random random(n, 0x3e45);
+    for (std::size_t i = 0; i < std::min(n, count); ++i) {
+        chosen.push_back(static_cast<Eigen::Index>(n <= count ? i : random.below(n)));
+    }
+    return chosen;
+}
+
+/// Square root of the smallest eigenvalue of the covariance: the spread off the best plane.
+double spread_off_plane(const Points& points, const std::vector<SpatialIndex::Neighbour>& ball) {
+    // A large ball is thinned: its covariance is as good from a few thousand points.
+    const std::size_t stride = 1 + ball.size() / kMostInBall;
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+    const Eigen::Vector3d origin = points.col(ball.front().index);
+    double count = 0;
+    for (std::size_t i = 0; i < ball.size(); i += stride, ++count) {
+        const Eigen::Vector3d p = points.col(ball[i].index) - origin;
+        mean += p;
+        squares += p * p.transpose();
+    }
+    mean /= count;
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+    solver.computeDirect(squares / count - mean * mean.transpose(), Eigen::EigenvaluesOnly);
+    return std::sqrt(std::max(0.0, solver.eigenvalues()[0]));
+}
+
+double noise_at(const Points& points, const SpatialIndex& index, double radius,
+                const Execution& execution) {
+    const std::vector<Eigen::Index> chosen = sample(points, kNoiseSample);
+    std::vector<double> spreads(chosen.size(), -1.0);
+    parallel_for(execution, chosen.size(), 16,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                     for (std::size_t i = begin; i < end; ++i) {
+                         const auto ball = index.within(points.col(chosen[i]), radius);
+                         if (ball.size() >= kFewestForPlane) {
+                             spreads[i] = spread_off_plane(points, ball);
+                         }
+                     }
+                 });
+    std::erase(spreads, -1.0);
+    return median(spreads);
+}
+
+/// Distances to the nearest other position, and to the point that makes the ball full.
+void measure_spacing(const Points& points, const SpatialIndex& index, Measurements& result) {
+    std::vector<double> full;
+    double sum = 0.0;
+    std::size_t counted = 0;
+    const std::size_t k = std::min(kPointsInBall, result.points);
+    for (const Eigen::Index i : sample(points, kSpacingSample)) {
+        const auto neighbours = index.nearest(points.col(i), k);
+        const auto other = std::ranges::find_if(
+            neighbours, [](const auto& neighbour) { return neighbour.squared_distance > 0; });
+        if (other == neighbours.end()) continue;  // one of many duplicates
+        sum += std::sqrt(other->squared_distance);
+        full.push_back(std::sqrt(neighbours.back().squared_distance));
+        ++counted;
+    }
+    result.mean_spacing = counted ? sum / static_cast<double>(counted) : result.diagonal;
+    result.density_radius = counted ? median(full) : result.diagonal;
+}
+
+}  // namespace
+
+Measurements measure(const Points& points, const Execution& execution) {
+    Measurements result;
+    result.points = static_cast<std::size_t>(points.cols());
+    if (result.points < 3) {
+        throw Error(ErrorCode::TooFewPoints, "The shape has " + std::to_string(result.points) +
+                                                 " points; at least 3 are needed.");
+    }
+    result.diagonal = (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
+    if (!(result.diagonal > 0)) {
+        throw Error(ErrorCode::DegenerateShape,
+                    "All points of the shape coincide: it has no extent.");
+    }
+    const SpatialIndex index(points);
+    measure_spacing(points, index, result);
+    double radius = result.density_radius;
+    for (int round = 0; round < kRounds; ++round) {
+        throw_if_cancelled(execution);
+        result.noise = noise_at(points, index, radius, execution);
+        const double wanted = kSigmasInBall * result.noise;
+        if (wanted <= 1.05 * radius) break;
+        radius = wanted;
+    }
+    return result;
+}
+
+}  // namespace lpf
