@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "api/codec/document.h"
+#include "api/codec/draco_claim.h"
+#include "api/codec/format.h"
+
+namespace lpf {
+
+/// Decodes in the helper program, which limits its own memory and time, so that a stream on which
+/// the decoder crashes, hangs or swallows memory costs one error and nothing else. The document
+/// comes back as a binary PLY, which is read like any other upload.
+/// @throws Error{MalformedFile, LimitExceeded}; Error{Internal} if the helper cannot be started
+[[nodiscard]] Document decode_draco_in_child(std::span<const std::byte> bytes,
+                                             const DracoClaim& claim, const DecodeLimits& limits);
+
+/// Exit status of the helper after it wrote an error, its code in the first line, to descriptor 2.
+inline constexpr int kDecodeHelperRefused = 3;
+
+}  // namespace lpf
