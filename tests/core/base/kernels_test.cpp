@@ -1,0 +1,128 @@
+#include "core/base/kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/base/random.h"
+
+namespace lpf {
+namespace {
+
+using Floats = std::vector<float>;
+
+Floats random_floats(std::size_t n, std::uint64_t seed) {
+    Random random(seed);
+    Floats values(n);
+    for (float& value : values) value = static_cast<float>(random.normal());
+    return values;
+}
+
+/// Sizes below, at and above whole vectors.
+class KernelsOf : public testing::TestWithParam<std::size_t> {
+protected:
+    const std::size_t n = GetParam();
+    const double tolerance = 1e-5 * std::sqrt(static_cast<double>(n) + 1);
+};
+
+TEST_P(KernelsOf, DotAndSquaredDistanceAgreeWithDoubles) {
+    const Floats a = random_floats(n, 1);
+    const Floats b = random_floats(n, 2);
+    double dot = 0;
+    double squared = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        dot += double{a[i]} * b[i];
+        squared += std::pow(double{a[i]} - b[i], 2);
+    }
+    EXPECT_NEAR(kernels::dot(a.data(), b.data(), n), dot, tolerance);
+    EXPECT_NEAR(kernels::squared_distance(a.data(), b.data(), n), squared, 10 * tolerance);
+}
+
+TEST_P(KernelsOf, MultiplyRowsIsOneDotProductARow) {
+    for (const std::size_t rows : {0U, 1U, 3U, 4U, 7U, 8U}) {
+        const Floats matrix = random_floats(rows * n, 3);
+        const Floats v = random_floats(n, 4);
+        Floats out(rows + 1, 77.0F);
+        kernels::multiply_rows(matrix.data(), rows, n, v.data(), out.data());
+        for (std::size_t k = 0; k < rows; ++k) {
+            EXPECT_NEAR(out[k], kernels::dot(matrix.data() + k * n, v.data(), n), 2 * tolerance);
+        }
+        EXPECT_EQ(out[rows], 77.0F) << "wrote past the end";
+    }
+}
+
+TEST_P(KernelsOf, AddScaledAddsAndStopsAtTheEnd) {
+    const Floats in = random_floats(n + 1, 5);
+    Floats out = random_floats(n + 1, 6);
+    const Floats before = out;
+    kernels::add_scaled(-2.5F, in.data(), out.data(), n);
+    for (std::size_t i = 0; i < n; ++i) ASSERT_NEAR(out[i], before[i] - 2.5F * in[i], 1e-5);
+    EXPECT_EQ(out[n], before[n]);
+}
+
+TEST_P(KernelsOf, PairMomentsAgreeWithDoubles) {
+    const Floats u = random_floats(3 * n, 7);
+    const Floats v = random_floats(3 * n, 8);
+    const Floats w = random_floats(3 * n, 9);
+    const kernels::PairMoments moments = kernels::pair_moments(u.data(), v.data(), w.data(), n);
+    for (std::size_t r = 0; r < 3; ++r) {
+        double a = 0;
+        double b = 0;
+        for (std::size_t i = r * n; i < (r + 1) * n; ++i) {
+            a += double{u[i]} + v[i];
+            b += double{u[i]} + w[i];
+        }
+        EXPECT_NEAR(moments.a[r], a, 4 * tolerance);
+        EXPECT_NEAR(moments.b[r], b, 4 * tolerance);
+        for (std::size_t c = 0; c < 3; ++c) {
+            double ab = 0;
+            for (std::size_t i = 0; i < n; ++i) {
+                ab += (double{u[r * n + i]} + v[r * n + i]) * (double{u[c * n + i]} + w[c * n + i]);
+            }
+            EXPECT_NEAR(moments.ab[3 * r + c], ab, 10 * tolerance);
+        }
+    }
+}
+
+TEST_P(KernelsOf, SecondMomentsAgreeWithDoubles) {
+    const Floats p[3] = {random_floats(n, 10), random_floats(n, 11), random_floats(n, 12)};
+    float moments[9];
+    kernels::second_moments(p[0].data(), p[1].data(), p[2].data(), n, moments);
+    int next = 0;
+    for (const Floats& axis : p) {
+        double sum = 0;
+        for (const float value : axis) sum += value;
+        EXPECT_NEAR(moments[next++], sum, 4 * tolerance);
+    }
+    for (std::size_t r = 0; r < 3; ++r) {
+        for (std::size_t c = r; c < 3; ++c) {
+            EXPECT_NEAR(moments[next++], kernels::dot(p[r].data(), p[c].data(), n), 4 * tolerance);
+        }
+    }
+}
+
+TEST_P(KernelsOf, ConvolveAgreesWithItsDefinition) {
+    constexpr int kReach = 2;
+    constexpr int kStride = 3;
+    const Floats taps = {0.5F, -1.0F, 2.0F, 0.25F, 3.0F};
+    const Floats in = random_floats(n + 2 * kReach * kStride, 13);
+    Floats out(n + 1, 7.0F);
+    const float* middle = in.data() + kReach * kStride;
+    kernels::convolve(middle, out.data(), n, kStride, taps.data() + kReach, kReach);
+    for (std::size_t i = 0; i < n; ++i) {
+        double expected = 0;
+        for (int k = -kReach; k <= kReach; ++k) {
+            expected += double{taps[static_cast<std::size_t>(k + kReach)]} *
+                        middle[static_cast<std::ptrdiff_t>(i) + k * kStride];
+        }
+        ASSERT_NEAR(out[i], expected, 1e-4);
+    }
+    EXPECT_EQ(out[n], 7.0F) << "wrote past the end";
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, KernelsOf, testing::Values(0, 1, 3, 8, 15, 16, 17, 64, 193),
+                         testing::PrintToStringParamName());
+
+}  // namespace
+}  // namespace lpf
