@@ -62,7 +62,8 @@ std::optional<PhaseProgress> phase_progress_from_json(const json& stored) {
 
 std::vector<ResolvedParameter> resolved_from_json(const json& stored) {
     std::vector<ResolvedParameter> parameters;
-    for (const auto& [name, entry] : stored.value("resolvedParameters", json::object()).items()) {
+    const json entries = stored.value("resolvedParameters", json::object());
+    for (const auto& [name, entry] : entries.items()) {
         ResolvedParameter parameter{
             .name = name,
             .value = {},

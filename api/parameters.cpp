@@ -30,7 +30,8 @@ void add_field_parameters(Rows& rows, const Limits& limits) {
                     .tasks = kEvery,
                     .description = "How far one field looks around its seed. Larger takes out "
                                    "more noise and more detail.",
-                    .automatic = "is found from the density of the points and the measured noise"});
+                    .automatic = "is the radius that holds about 150 points, or three times the "
+                                 "measured noise if that is more"});
     rows.push_back({.name = "radiusUnit",
                     .type = ParameterType::Choice,
                     .title = "Unit of the radius",
@@ -49,7 +50,7 @@ void add_field_parameters(Rows& rows, const Limits& limits) {
                     .tasks = kEvery,
                     .description = "The pattern is the regular grid in a disk whose number of "
                                    "points is nearest to this.",
-                    .automatic = "fits the pattern to the density of the points; with a "
+                    .automatic = "is 193, and 793 for meshes, whose edges are sharp; with a "
                                  "dictionary, it is that of the dictionary"});
     rows.push_back({.name = "probing",
                     .type = ParameterType::Choice,
@@ -60,8 +61,8 @@ void add_field_parameters(Rows& rows, const Limits& limits) {
                                    "noiseAware: the local mean height over the plane. "
                                    "nearestPoint: the nearest point in space. nearestTriangle: "
                                    "the nearest point of a mesh.",
-                    .automatic = "suits the process, the measured noise and whether there are "
-                                 "triangles"});
+                    .automatic = "is nearestTriangle for meshes that are not denoised, else "
+                                 "noiseAware"});
 }
 
 void add_dictionary_parameters(Rows& rows, const Limits& limits) {
@@ -73,15 +74,14 @@ void add_dictionary_parameters(Rows& rows, const Limits& limits) {
                     .maximum = static_cast<double>(limits.atoms),
                     .tasks = kEvery,
                     .description = "How many local shapes are learned.",
-                    .automatic = "suits the process; with a dictionary, it is that of the "
-                                 "dictionary"});
+                    .automatic = "is 16; with a dictionary, it is that of the dictionary"});
     rows.push_back({.name = "lambda",
                     .title = "Weight of sparsity",
                     .minimum = 0,
                     .tasks = kEvery,
                     .description = "Of |V - D a|^2 + lambda |a|_1, for fields in units of the "
                                    "radius. Larger: fewer atoms a field, smoother result.",
-                    .automatic = "follows the measured noise and the number of atoms"});
+                    .automatic = "follows the measured noise and the density of the points"});
     rows.push_back({.name = "analysisIterations",
                     .type = ParameterType::Integer,
                     .title = "Iterations of the joint analysis",
@@ -91,7 +91,7 @@ void add_dictionary_parameters(Rows& rows, const Limits& limits) {
                     .tasks = kEvery,
                     .description = "Rounds of learning the dictionary, fitting the poses and "
                                    "probing anew.",
-                    .automatic = "suits the process"});
+                    .automatic = "is 1 to denoise, 3 to resample, 10 to analyze"});
     rows.push_back({.name = "dictionary",
                     .type = ParameterType::Identifier,
                     .title = "Dictionary to use",
@@ -116,7 +116,7 @@ void add_target_parameters(Rows& rows, const Limits& limits) {
                     .maximum = static_cast<double>(limits.denoise_iterations),
                     .tasks = kDenoise,
                     .description = "At most; it stops earlier once the points hardly move.",
-                    .automatic = "follows the measured noise"});
+                    .automatic = "is 1 where the noise is small against the radius, else 2"});
     rows.push_back({.name = "gamma",
                     .title = "Step of a point towards the consensus",
                     .exclusive_minimum = true,
@@ -130,8 +130,8 @@ void add_target_parameters(Rows& rows, const Limits& limits) {
                     .exclusive_minimum = true,
                     .tasks = kResample,
                     .description = "Only one of targetSpacing, targetPoints and factor.",
-                    .automatic = "follows targetPoints or factor; without them the result is as "
-                                 "dense as the method chooses for the shape"});
+                    .automatic = "follows targetPoints or factor; without them there are as many "
+                                 "points as in the input"});
     rows.push_back({.name = "targetPoints",
                     .type = ParameterType::Integer,
                     .title = "Number of points of the result",
@@ -192,7 +192,7 @@ void add_run_parameters(Rows& rows, const Limits& limits) {
                     .choices = choice_names<FileFormat>(),
                     .tasks = kWithPoints,
                     .description = "ply: binary. drc: Draco, in the order of the points.",
-                    .automatic = "is Draco for Draco input, binary PLY otherwise"});
+                    .automatic = "is that of the input; big-endian PLY comes back little-endian"});
     rows.push_back({.name = "quantizationBits",
                     .type = ParameterType::Integer,
                     .title = "Bits of a coordinate in Draco",

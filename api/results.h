@@ -8,8 +8,12 @@
 
 namespace lpf {
 
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored \
+    "-Wshadow"  // g++ 12 takes scoped names for those of lpf::Points, ...
 /// What a job can leave behind.
 enum class ResultKind { Points, Dictionary, Report, Fields };
+#pragma GCC diagnostic pop
 
 [[nodiscard]] std::string_view result_name(ResultKind kind);  ///< "points", ...
 
