@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 mapfile -t shell < <(git ls-files '*.sh' .ci/run)
-shellcheck --external-sources "${shell[@]}"
+shellcheck --external-sources --source-path=SCRIPTDIR "${shell[@]}"
 echo "${#shell[@]} shell scripts are clean."
 
 files=("$@")

@@ -19,10 +19,11 @@ const Colour kInk(0.15F, 0.17F, 0.20F);
 /// Rows: right, up, towards the viewer.
 Eigen::Matrix3d camera_axes(double azimuth, double elevation) {
     const double a = azimuth * std::numbers::pi / 180, e = elevation * std::numbers::pi / 180;
+    const Eigen::Vector3d right(-std::sin(a), std::cos(a), 0);
+    const Eigen::Vector3d towards(std::cos(e) * std::cos(a), std::cos(e) * std::sin(a),
+                                  std::sin(e));
     Eigen::Matrix3d axes;
-    axes.row(0) << -std::sin(a), std::cos(a), 0;
-    axes.row(2) << std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e);
-    axes.row(1) = axes.row(2).cross(axes.row(0));
+    axes << right.transpose(), towards.cross(right).transpose(), towards.transpose();
     return axes;
 }
 

@@ -15,7 +15,7 @@
 namespace lpf::test {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;  // the summary first, details after it
 using Distance = std::function<double(const Vector3d&)>;
 
 Document read_file(const std::string& path) {

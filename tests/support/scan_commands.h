@@ -42,12 +42,12 @@ struct RenderCommand {
 };
 
 /// Writes a noisy scan of a shape, and its clean twin if asked. Returns what was written.
-nlohmann::json simulate(const SimulateCommand& command);
+nlohmann::ordered_json simulate(const SimulateCommand& command);
 
 /// Distances from a result to the reference, in input units and in per cent of the diagonal.
-nlohmann::json measure_error(const ErrorCommand& command);
+nlohmann::ordered_json measure_error(const ErrorCommand& command);
 
 /// Draws files side by side.
-nlohmann::json render_files(const RenderCommand& command);
+nlohmann::ordered_json render_files(const RenderCommand& command);
 
 }  // namespace lpf::test
