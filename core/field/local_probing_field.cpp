@@ -27,7 +27,7 @@ PrincipalDirections principal_directions(const TargetArea& target) {
 
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
     solver.computeDirect(covariance);
-    Eigen::Matrix3d axes;
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();  // allFinite reads every column
     axes.col(0) = solver.eigenvectors().col(2);
     axes.col(2) = solver.eigenvectors().col(0);
     // Equal points and exact lines leave directions open; any right-handed frame is as good then.
