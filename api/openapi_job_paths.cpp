@@ -58,7 +58,7 @@ Json execution(Task task, const Limits& limits) {
 Operation result(std::string_view name, const Json& content, bool choice_of_format) {
     std::string capital(name);
     capital[0] = static_cast<char>(capital[0] - 'a' + 'A');
-    Operation operation("get" + capital, "Results", "The " + std::string(name) + " of a job");
+    Operation operation("getJob" + capital, "Results", "The " + std::string(name) + " of a job");
     operation.parameter("jobID").parameter("range").parameter("ifNoneMatch");
     if (choice_of_format) operation.parameter("pointsFormat");
     operation

@@ -14,7 +14,7 @@ constexpr std::string_view kAdminServer = "http://127.0.0.1:8081";
 Json document_paths() {
     const Json openapi = {{"type", "object"}, {"description", "An OpenAPI 3.1 document."}};
     Json paths;
-    paths["/v1/"]["get"] =
+    paths["/v1"]["get"] =
         Operation("getLandingPage", "Service", "Landing page")
             .answers(200, "Links to everything.", json_content(component("LandingPage")))
             .json();
