@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
@@ -66,6 +67,7 @@ std::span<const std::byte> map_standard_input() {
     if (fstat(STDIN_FILENO, &status) != 0 || status.st_size == 0) return {};
     const auto size = static_cast<std::size_t>(status.st_size);
     void* const mapping = mmap(nullptr, size, PROT_READ, MAP_PRIVATE, STDIN_FILENO, 0);
+    if (mapping == MAP_FAILED && errno == ENOMEM) throw std::bad_alloc();
     if (mapping == MAP_FAILED) {
         lpf::fail(lpf::ErrorCode::Internal, "lpf-decode: standard input is not a file");
     }

@@ -69,7 +69,13 @@ const std::byte* BinaryReader::take(std::size_t size, std::size_t row, const Ply
 void BinaryReader::read_blocks() {
     std::size_t row_size = 0;
     for (const PlyColumn& column : table_.columns) row_size += size_of(column.property().type);
-    // The caller compared the count with the bytes there are: neither product overflows.
+    // Lists of earlier elements may have used up bytes that the counts alone seemed to leave.
+    const std::size_t bytes_left = file_.size() - at_;
+    if (row_size > 0 && table_.rows > bytes_left / row_size) {
+        malformed("element ", quoted(table_.name), " at byte ", at_, " has ", table_.rows,
+                  " rows of ", row_size, " bytes, but only ", bytes_left,
+                  " bytes are left; the file is truncated");
+    }
     const std::byte* first = file_.data() + at_;
     for (PlyColumn& column : table_.columns) column.set_rows(table_.rows);
     for (std::size_t row = 0; row < table_.rows; row += kRowsPerBlock) {

@@ -151,7 +151,7 @@ INSTANTIATE_TEST_SUITE_P(
                  ErrorCode::MalformedFile, "metadata"},
         BadDraco{"Garbage", draco_header(2, 3, 0, 0) + std::string("\4\0\0\0", 4) + kRest,
                  ErrorCode::MalformedFile, "Draco stream"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& test) { return test.param.name; });
 
 TEST(DracoWithoutHelper, RefusesOldBitstreamsWithAdvice) {
     std::string file = draco_header(1, 1, 0, 0);
@@ -196,7 +196,7 @@ TEST_P(DracoDamage, AnyChangedByteOfTheHeaderHasADefinedAnswer) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, DracoDamage, testing::Bool(),
-                         [](const auto& info) { return info.param ? "Mesh" : "PointCloud"; });
+                         [](const auto& test) { return test.param ? "Mesh" : "PointCloud"; });
 
 }  // namespace
 }  // namespace lpf

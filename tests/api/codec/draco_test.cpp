@@ -117,8 +117,8 @@ TEST_P(DracoRoundTrip, DropsNonFinitePoints) {
     EXPECT_TRUE(has_warning(result.warnings, "non-finite-points-dropped"));
 }
 
-INSTANTIATE_TEST_SUITE_P(Where, DracoRoundTrip, testing::Bool(), [](const auto& info) {
-    return info.param ? "InTheHelper" : "InThisProcess";
+INSTANTIATE_TEST_SUITE_P(Where, DracoRoundTrip, testing::Bool(), [](const auto& test) {
+    return test.param ? "InTheHelper" : "InThisProcess";
 });
 
 class DracoQuantization : public testing::TestWithParam<int> {};

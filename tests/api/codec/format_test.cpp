@@ -78,7 +78,7 @@ INSTANTIATE_TEST_SUITE_P(
         Foreign{"ByteOrderMark", "\xef\xbb\xbfply\nformat ascii 1.0\n", "byte order mark"},
         Foreign{"UpperCaseMagic", "PLY\nformat ascii 1.0\n", "begins with 'PLY"},
         Foreign{"Binary", std::string("\0\1\2\3", 4), "\\x00\\x01"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& test) { return test.param.name; });
 
 TEST(Encode, RefusesQuantizationOutsideItsRange) {
     for (const int bits : {-1, 31}) {

@@ -161,7 +161,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadRows{"ListLongerThanTheFile", 1, "property list int int l\n", "0 0 0 60000 1\n",
                 "bytes are left"},
         BadRows{"NulByte", 1, "", std::string("0 0 \0\n", 6), "'\\x00'"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& test) { return test.param.name; });
 
 TEST(PlyAscii, NonFinitePointsAreDroppedAndCounted) {
     const Document document = read(ascii_points(4, "property uchar id\nproperty list uchar int l\n",

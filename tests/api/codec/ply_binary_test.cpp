@@ -129,8 +129,8 @@ TEST_P(PlyBinary, NamesTheByteWhereAListIsCutOff) {
     EXPECT_THAT(error->what(), HasSubstr("ends at byte " + std::to_string(file.size())));
 }
 
-INSTANTIATE_TEST_SUITE_P(ByteOrder, PlyBinary, testing::Bool(), [](const auto& info) {
-    return info.param ? "BigEndian" : "LittleEndian";
+INSTANTIATE_TEST_SUITE_P(ByteOrder, PlyBinary, testing::Bool(), [](const auto& test) {
+    return test.param ? "BigEndian" : "LittleEndian";
 });
 
 }  // namespace

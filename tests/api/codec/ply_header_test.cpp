@@ -104,7 +104,7 @@ INSTANTIATE_TEST_SUITE_P(
                   with_start("element vertex 1\nproperty list uchar float x\nproperty int y\n"
                              "property int z\nend_header\n1 0 0 0\n"),
                   "'x' of element 'vertex' is a list"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& test) { return test.param.name; });
 
 TEST(PlyHeader, AtItsLimitsIsAccepted) {
     EXPECT_EQ(refusal(elements(16)), std::nullopt);
@@ -188,7 +188,7 @@ INSTANTIATE_TEST_SUITE_P(Kinds, PlyLineEnds,
                                          LineEnds{"Cr", "\r", "\r"},
                                          LineEnds{"LfThenCrLf", "\n", "\r\n"},
                                          LineEnds{"CrLfThenLf", "\r\n", "\n"}),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& test) { return test.param.name; });
 
 TEST(PlyHeader, OldMacFileMayBeginItsDataWithALineFeed) {
     const std::string text =

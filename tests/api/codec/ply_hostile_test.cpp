@@ -133,8 +133,8 @@ TEST_P(PlyDamage, AnyRemovedOrDoubledByteHasADefinedAnswer) {
 INSTANTIATE_TEST_SUITE_P(Formats, PlyDamage,
                          testing::Values(FileFormat::PlyBinary, FileFormat::PlyAscii,
                                          FileFormat::PlyBigEndian),
-                         [](const auto& info) {
-                             std::string name(format_name(info.param));
+                         [](const auto& test) {
+                             std::string name(format_name(test.param));
                              std::replace(name.begin(), name.end(), '-', '_');
                              return name;
                          });
