@@ -52,8 +52,8 @@ public:
         const FieldSample sample{fields_.probe_sample(sample_, part_of(execution, 0.0, 0.3)),
                                  dictionary_.stride()};
         if (energy_.empty() && !params_.initial_dictionary) {
-            dictionary_ = draw_dictionary(fields_.pattern(), params_.atoms, sample,
-                                          params_.random_seed);
+            dictionary_ =
+                draw_dictionary(fields_.pattern(), params_.atoms, sample, params_.random_seed);
         }
         SparseCodes codes(sample.count(), dictionary_.atoms());
         for (std::size_t i = 0; i < sample.count(); ++i) {
@@ -65,9 +65,7 @@ public:
 
     /// Steps 1 to 3 for every LPF in one pass: probe it where it now is (closing the loop of the
     /// iteration before), code it, and move it to where it fits its code best.
-    void code_and_pose(const Execution& execution) {
-        pass("analyze", execution, true);
-    }
+    void code_and_pose(const Execution& execution) { pass("analyze", execution, true); }
 
     /// Step 3 of the last iteration, and the codes that belong to the last poses.
     void close(const Execution& execution) {
@@ -110,8 +108,8 @@ private:
                 energy.learning += field_energy(worker, code);
                 if (!move) return;
 
-                const RigidFit fit = fit_pose(dictionary_.pattern(), worker.field.data(),
-                                              worker.decoded.data());
+                const RigidFit fit =
+                    fit_pose(dictionary_.pattern(), worker.field.data(), worker.decoded.data());
                 apply_pose(fit, fields_.frames[j]);
                 move_field(dictionary_.pattern(), fit, worker.field.data());
                 energy.pose += field_energy(worker, code);
@@ -200,8 +198,7 @@ void validate(const AnalysisParams& p) {
     }
 }
 
-AnalysisResult analyze(FieldSet& fields, const AnalysisParams& params,
-                       const Execution& execution) {
+AnalysisResult analyze(FieldSet& fields, const AnalysisParams& params, const Execution& execution) {
     JointLoop loop(fields, params);
     const double passes = params.iterations + 1;
     for (int i = 0; i < params.iterations; ++i) {

@@ -19,32 +19,32 @@ enum class PatternKind { Grid, RandomDisk, Custom };
 
 struct PatternParams {
     PatternKind kind = PatternKind::Grid;
-    int points = 193;                ///< M, 5 to 12849; a grid takes the nearest possible number
-    Eigen::Matrix3Xf offsets = {};   ///< for PatternKind::Custom: 3 x M [radius]
+    int points = 193;               ///< M, 5 to 12849; a grid takes the nearest possible number
+    Eigen::Matrix3Xf offsets = {};  ///< for PatternKind::Custom: 3 x M [radius]
 };
 
 /// Parameters of the joint analysis (paper Sec. 3).
 struct AnalysisParams {
-    double radius = 0.0;             ///< r [input length], > 0. No universal default (Sec. 3.6)
+    double radius = 0.0;  ///< r [input length], > 0. No universal default (Sec. 3.6)
     PatternParams pattern = {};
     ProbingKind probing = ProbingKind::AsOrthogonalAsPossible;
-    double target_radius = 1.1;      ///< of the target area [radius], 1 to 2 (Sec. 3.1)
-    double seed_spacing = 0.5;       ///< least distance of seeds [radius]; 0 = one seed per point
-    bool principal_frames = true;    ///< start from principal directions; false = random (Sec. 3.1)
-    int pose_iterations = 2;         ///< as-orthogonal-as-possible passes (Sec. 2.2), 0 to 50
-    int atoms = 16;                  ///< d, 1 to 256 (Sec. 3.6)
-    double lambda = 0.2;             ///< of Eq. 2, for fields in units of the radius, >= 0
+    double target_radius = 1.1;    ///< of the target area [radius], 1 to 2 (Sec. 3.1)
+    double seed_spacing = 0.5;     ///< least distance of seeds [radius]; 0 = one seed per point
+    bool principal_frames = true;  ///< start from principal directions; false = random (Sec. 3.1)
+    int pose_iterations = 2;       ///< as-orthogonal-as-possible passes (Sec. 2.2), 0 to 50
+    int atoms = 16;                ///< d, 1 to 256 (Sec. 3.6)
+    double lambda = 0.2;           ///< of Eq. 2, for fields in units of the radius, >= 0
     LassoMethod lasso = LassoMethod::CoordinateDescent;
-    bool debias = false;             ///< least squares on the support after coding (sharp shapes)
-    int iterations = 10;             ///< of the joint loop, 1 to 1000
-    int learning_sample = 8192;      ///< LPFs that the dictionary is learned on, at most
-    int learning_rounds = 5;         ///< rounds of coding and dictionary update in an iteration
-    double smoothing = 0.125;        ///< kernel width of NoiseAware probing [radius], .05 to .5
+    bool debias = false;         ///< least squares on the support after coding (sharp shapes)
+    int iterations = 10;         ///< of the joint loop, 1 to 1000
+    int learning_sample = 8192;  ///< LPFs that the dictionary is learned on, at most
+    int learning_rounds = 5;     ///< rounds of coding and dictionary update in an iteration
+    double smoothing = 0.125;    ///< kernel width of NoiseAware probing [radius], .05 to .5
     std::uint64_t random_seed = 1;
 
     /// Start from this dictionary instead of random LPFs; its pattern replaces `pattern`.
     std::optional<Dictionary> initial_dictionary = {};
-    bool keep_dictionary = false;    ///< code against it, never change it
+    bool keep_dictionary = false;  ///< code against it, never change it
 };
 
 /// Energy of Eq. 2 per LPF, after each step of one iteration (Sec. 3.2). The first two never rise
@@ -59,12 +59,12 @@ struct IterationEnergy {
 struct AnalysisResult {
     Dictionary dictionary;
     std::vector<Frame> frames;
-    SparseCodes codes;                        ///< N x d
-    std::vector<float> residuals;             ///< RMS of |v_i - (D alpha)_i| [radius]
-    std::vector<std::uint8_t> dimensions;     ///< 0 too few points, 1 curve, 2 surface
-    std::vector<float> usage;                 ///< d: share of LPFs that use the atom, 0 to 1
-    std::vector<IterationEnergy> energy;      ///< one per iteration
-    double radius = 0.0;                      ///< as in the parameters [input length]
+    SparseCodes codes;                     ///< N x d
+    std::vector<float> residuals;          ///< RMS of |v_i - (D alpha)_i| [radius]
+    std::vector<std::uint8_t> dimensions;  ///< 0 too few points, 1 curve, 2 surface
+    std::vector<float> usage;              ///< d: share of LPFs that use the atom, 0 to 1
+    std::vector<IterationEnergy> energy;   ///< one per iteration
+    double radius = 0.0;                   ///< as in the parameters [input length]
     double lambda = 0.0;
 };
 
@@ -77,7 +77,8 @@ void check_points(const Points& points);
 
 /// The joint analysis of a shape (paper Sec. 3.2): poses, dictionary and sparse codes.
 /// @param shape finite points, at least 3, not all the same
-/// @throws Error{InvalidParameter, TooFewPoints, DegenerateShape, IncompatibleDictionary, Cancelled}
+/// @throws Error{InvalidParameter, TooFewPoints, DegenerateShape, IncompatibleDictionary,
+/// Cancelled}
 [[nodiscard]] AnalysisResult analyze(const Shape& shape, const AnalysisParams& params,
                                      const Execution& execution);
 

@@ -15,6 +15,10 @@ constexpr double kPointsInDensityBall = 150.0;
 /// A radius of fewer sigma cuts the noise off; one of many more costs curves and thin parts.
 constexpr double kSigmasInRadius = 3.0;
 
+/// Without noise, a ball of this share of the density radius (about 54 points) shows the shape
+/// best.
+constexpr double kDensityShare = 0.6;
+
 /// Below this ratio of noise to radius a second outer iteration rounds more than it smooths.
 constexpr double kQuiet = 0.06;
 
@@ -38,6 +42,7 @@ public:
     ResolvedParameters run() {
         AnalysisParams& a = result_.analysis;
         a.random_seed = q_.random_seed;
+        a.debias = true;
         a.radius = choose("radius", q_.radius, auto_radius());
         noise_ratio_ = m_.noise / a.radius;
         a.probing = q_.probing.value_or(auto_probing());
@@ -77,11 +82,11 @@ private:
             return {0.5 * m_.density_radius,
                     "half the radius that holds about 150 vertices of the mesh"};
         }
+        const double by_density = kDensityShare * m_.density_radius;
         const double by_noise = kSigmasInRadius * m_.noise;
-        if (by_noise > m_.density_radius) {
-            return {by_noise, "3 times the measured noise " + text(m_.noise)};
-        }
-        return {m_.density_radius, "the radius that holds about 150 points"};
+        return {std::hypot(by_density, by_noise),
+                "root of the sum of squares of .6 times the radius that holds about 150 points (" +
+                    text(m_.density_radius) + ") and 3 times the noise (" + text(m_.noise) + ")"};
     }
 
     [[nodiscard]] ProbingKind auto_probing() const {
@@ -111,9 +116,9 @@ private:
         const double share = result_.analysis.radius / m_.density_radius;
         const double points_in_disk = kPointsInDensityBall * share * share;
         const double m = result_.analysis.pattern.points;
-        const double lambda = 5.0 * noise_ratio_ * std::sqrt(m / std::max(points_in_disk, 1.0));
+        const double lambda = 3.5 * noise_ratio_ * std::sqrt(m / std::max(points_in_disk, 1.0));
         return {std::max(lambda, 0.002),
-                "5 (noise / radius) sqrt(patternPoints / points in a disk)"};
+                "3.5 (noise / radius) sqrt(patternPoints / points in a disk)"};
     }
 
     [[nodiscard]] Choice<int> auto_analysis_iterations() const {
@@ -125,7 +130,8 @@ private:
     void resolve_denoise() {
         DenoiseParams& d = result_.denoise;
         d.analysis = result_.analysis;
-        d.iterations = choose("denoiseIterations", q_.denoise_iterations, auto_denoise_iterations());
+        d.iterations =
+            choose("denoiseIterations", q_.denoise_iterations, auto_denoise_iterations());
         d.gamma = choose("gamma", q_.gamma, Choice<double>{0.0, "the full step (0 stands for it)"});
     }
 
@@ -136,8 +142,8 @@ private:
 
     void resolve_resample() {
         ResampleParams& r = result_.resample;
-        const int targets = q_.target_spacing.has_value() + q_.target_points.has_value() +
-                            q_.factor.has_value();
+        const int targets =
+            q_.target_spacing.has_value() + q_.target_points.has_value() + q_.factor.has_value();
         if (targets > 1) {
             throw Error(ErrorCode::InvalidParameter,
                         "Give one of targetSpacing, targetPoints and factor, not several.",
@@ -165,8 +171,8 @@ private:
     void warn() {
         const double r = result_.analysis.radius;
         if (r < 2 * m_.mean_spacing) {
-            result_.warnings.push_back("The radius " + text(r) + " is less than two mean spacings (" +
-                                       text(m_.mean_spacing) +
+            result_.warnings.push_back("The radius " + text(r) +
+                                       " is less than two mean spacings (" + text(m_.mean_spacing) +
                                        "): most patterns see too few points to say anything.");
         }
         if (r > 0.25 * m_.diagonal) {

@@ -13,7 +13,8 @@ namespace lpf {
 
 enum class Task { Denoise, Resample, Analyze };
 
-/// What a user asked for; everything left empty is chosen from the data. Lengths in the input's unit.
+/// What a user asked for; everything left empty is chosen from the data. Lengths in the input's
+/// unit.
 struct ParameterRequest {
     std::optional<double> radius;
     std::optional<int> pattern_points;
@@ -24,26 +25,26 @@ struct ParameterRequest {
     std::optional<double> gamma;
     std::optional<double> target_spacing;
     std::optional<std::size_t> target_points;
-    std::optional<double> factor;            ///< target points as a multiple of the input's
+    std::optional<double> factor;  ///< target points as a multiple of the input's
     std::optional<ProbingKind> probing;
     std::uint64_t random_seed = 1;
-    std::optional<Dictionary> dictionary;    ///< to start from; fixes pattern and atoms
+    std::optional<Dictionary> dictionary;  ///< to start from; fixes pattern and atoms
     bool keep_dictionary = false;
 };
 
 /// A value and where it came from, for the user to read.
 struct ResolvedValue {
-    std::string name;          ///< as in ParameterRequest
+    std::string name;  ///< as in ParameterRequest
     double value = 0.0;
-    bool automatic = false;    ///< false: the user gave it
-    std::string rule;          ///< one sentence: how it was found
+    bool automatic = false;  ///< false: the user gave it
+    std::string rule;        ///< one sentence: how it was found
 };
 
 /// The parameters of a job, each with its origin.
 struct ResolvedParameters {
-    DenoiseParams denoise;     ///< filled for Task::Denoise
-    ResampleParams resample;   ///< filled for Task::Resample
-    AnalysisParams analysis;   ///< filled for every task
+    DenoiseParams denoise;    ///< filled for Task::Denoise
+    ResampleParams resample;  ///< filled for Task::Resample
+    AnalysisParams analysis;  ///< filled for every task
     std::vector<ResolvedValue> values;
     std::vector<std::string> warnings;  ///< e.g. a radius that holds too few points
 };

@@ -16,9 +16,9 @@ struct Candidates {
     [[nodiscard]] std::size_t size() const { return points.size(); }
 };
 
-/// A consensus of the candidates (paper Sec. 4.1, Eq. 8), found greedily in their order: the mean of
-/// all candidates within `spacing` of one becomes a point, unless one is that near already, and all
-/// candidates within `spacing` of it are spent. No two points are nearer than `spacing`.
+/// A consensus of the candidates (paper Sec. 4.1, Eq. 8), found greedily in their order: the mean
+/// of all candidates within `spacing` of one becomes a point, unless one is that near already, and
+/// all candidates within `spacing` of it are spent. No two points are nearer than `spacing`.
 /// Departs from the text, which bounds a length by tau_p squared.
 /// @param spacing tau_p [input length], > 0
 /// @returns the points, each with the LPF that proposed it first

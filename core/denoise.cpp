@@ -43,8 +43,7 @@ public:
 
 private:
     static void add(std::int64_t& sum, float value) {
-        std::atomic_ref(sum).fetch_add(static_cast<std::int64_t>(value),
-                                       std::memory_order_relaxed);
+        std::atomic_ref(sum).fetch_add(static_cast<std::int64_t>(value), std::memory_order_relaxed);
     }
 
     std::vector<std::int64_t> sums_;
@@ -132,8 +131,7 @@ void validate(const DenoiseParams& params) {
 
 }  // namespace
 
-DenoiseResult denoise(const Shape& shape, const DenoiseParams& params,
-                      const Execution& execution) {
+DenoiseResult denoise(const Shape& shape, const DenoiseParams& params, const Execution& execution) {
     validate(params);
     check_points(shape.cloud.points);
     Shape current;
@@ -142,9 +140,8 @@ DenoiseResult denoise(const Shape& shape, const DenoiseParams& params,
     AnalysisParams analysis_params = params.analysis;
 
     for (int i = 0;; ++i) {
-        const Execution outer =
-            part_of(execution, static_cast<double>(i) / params.iterations,
-                    static_cast<double>(i + 1) / params.iterations);
+        const Execution outer = part_of(execution, static_cast<double>(i) / params.iterations,
+                                        static_cast<double>(i + 1) / params.iterations);
         FieldSet fields(current, analysis_params, part_of(outer, 0.0, 0.05));
         fields.optimise_poses(analysis_params.pose_iterations, part_of(outer, 0.05, 0.25));
         AnalysisResult analysis = analyze(fields, analysis_params, part_of(outer, 0.25, 0.8));

@@ -9,16 +9,16 @@ namespace lpf {
 /// Parameters of denoising (paper Sec. 4.2).
 struct DenoiseParams {
     AnalysisParams analysis = {};
-    int iterations = 2;         ///< outer iterations at most, 1 to 50
-    double gamma = 0.0;         ///< Eq. 12: q <- (q + gamma q~)/(1 + gamma); 0 = the full step
-    bool sharp = false;         ///< vote for sharp edges: uniform weights, error power 3
-    double stop_ratio = 0.1;    ///< stop when the RMS move falls under this share of the first
+    int iterations = 2;       ///< outer iterations at most, 1 to 50
+    double gamma = 0.0;       ///< Eq. 12: q <- (q + gamma q~)/(1 + gamma); 0 = the full step
+    bool sharp = false;       ///< vote for sharp edges: uniform weights, error power 3
+    double stop_ratio = 0.1;  ///< stop when the RMS move falls under this share of the first
 };
 
 struct DenoiseResult {
-    Points points;                    ///< as many as the input, in its order
-    std::vector<double> rms_moves;    ///< RMS move of each outer iteration [input length]
-    AnalysisResult analysis;          ///< of the last outer iteration
+    Points points;                  ///< as many as the input, in its order
+    std::vector<double> rms_moves;  ///< RMS move of each outer iteration [input length]
+    AnalysisResult analysis;        ///< of the last outer iteration
 };
 
 /// Moves every point to the consensus of the LPFs around it. Points that no LPF covers stay.

@@ -67,7 +67,7 @@ void FieldSet::place(const Points& targets, const AnalysisParams& params,
     const double spacing = params.seed_spacing * params.radius;
     std::vector<std::uint8_t> chosen(grid_.size(), 0);
     for (const std::uint32_t i :
-         poisson_disk_subset(targets, spacing, params.random_seed, execution)) {
+         poisson_disk_subset(targets, spacing, params.random_seed, part_of(execution, 0.0, 0.5))) {
         chosen[i] = 1;
     }
     // In the order of the grid, so that neighbours in space are neighbours in work.
@@ -80,7 +80,7 @@ void FieldSet::place(const Points& targets, const AnalysisParams& params,
     }
     dimensions.assign(frames.size(), kTooFewPoints);
 
-    parallel_for(execution, "place", "fields", size(), kFieldsPerChunk,
+    parallel_for(part_of(execution, 0.5, 1.0), "place", "fields", size(), kFieldsPerChunk,
                  [&](std::size_t begin, std::size_t end, std::size_t) {
                      TargetArea target;
                      for (std::size_t j = begin; j < end; ++j) {
@@ -167,8 +167,9 @@ std::vector<float> FieldSet::probe_sample(const std::vector<std::size_t>& sample
                      Worker worker = make_worker(0);
                      for (std::size_t i = begin; i < end; ++i) {
                          probe(sample[i], worker);
-                         std::ranges::copy(worker.field, fields.begin() +
-                                               static_cast<std::ptrdiff_t>(i * stride));
+                         std::ranges::copy(
+                             worker.field,
+                             fields.begin() + static_cast<std::ptrdiff_t>(i * stride));
                      }
                  });
     return fields;

@@ -23,13 +23,14 @@ public:
     /// What a thread needs to work on one LPF after the other.
     struct Worker {
         ProbeScratch probe;
-        std::vector<float> field;     ///< V_j, three channels of pattern.padded_size()
-        std::vector<float> decoded;   ///< D alpha_j
+        std::vector<float> field;    ///< V_j, three channels of pattern.padded_size()
+        std::vector<float> decoded;  ///< D alpha_j
         std::vector<float> correlations;
     };
 
-    /// Runs body(j, worker, chunk) for every LPF with a usable target area, `worker.field` freshly probed
-    /// and `worker.probe.target` in frame coordinates. `chunk` numbers the fixed chunks of LPFs.
+    /// Runs body(j, worker, chunk) for every LPF with a usable target area, `worker.field` freshly
+    /// probed and `worker.probe.target` in frame coordinates. `chunk` numbers the fixed chunks of
+    /// LPFs.
     using Body = std::function<void(std::size_t j, Worker& worker, std::size_t chunk)>;
     /// @param atoms room for that many correlations in the worker
     void for_each_probed(std::string_view phase, const Execution& execution, int atoms,

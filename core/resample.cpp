@@ -22,13 +22,14 @@ constexpr int kMostSearchRounds = 6;
 constexpr double kCandidateStep = 1.0;
 constexpr int kMostSubdivisions = 16;
 
-/// Places of the plane at which an LPF proposes a point: the nodes of the pattern and, where they are too
-/// far apart for the spacing, places between them. Ordered from the centre outwards.
+/// Places of the plane at which an LPF proposes a point: the nodes of the pattern and, where they
+/// are too far apart for the spacing, places between them. Ordered from the centre outwards.
 std::vector<Eigen::Vector2f> proposal_places(const Pattern& pattern, double radius,
                                              double spacing) {
     const double step = static_cast<double>(pattern.step()) * radius;
-    const int cuts = std::clamp(static_cast<int>(std::ceil(step / (kCandidateStep * spacing) - 1e-9)),
-                                1, kMostSubdivisions);
+    const int cuts =
+        std::clamp(static_cast<int>(std::ceil(step / (kCandidateStep * spacing) - 1e-9)), 1,
+                   kMostSubdivisions);
     std::vector<Eigen::Vector2f> places;
     if (cuts == 1) {
         for (const int i : pattern.by_distance()) places.push_back(pattern.point(i).head<2>());
@@ -105,13 +106,12 @@ Candidates propose(const FieldSet& fields, const AnalysisResult& analysis, doubl
     fields.for_each_target(
         "propose", execution, [&](std::size_t j, FieldSet::Worker& worker, std::size_t) {
             analysis.dictionary.decode(analysis.codes[j], worker.decoded);
-            const float reach = static_cast<float>(
-                std::max(support, spacing / 2) / fields.frames[j].radius);
+            const float reach =
+                static_cast<float>(std::max(support, spacing / 2) / fields.frames[j].radius);
             const Support supported(worker.probe.target, std::max(reach, 1e-3F));
             proposals[j].assign(places.size(), Eigen::Vector3f::Constant(NAN));
             for (std::size_t i = 0; i < places.size(); ++i) {
-                const Eigen::Vector3f p =
-                    interpolate(fields.pattern(), worker.decoded, places[i]);
+                const Eigen::Vector3f p = interpolate(fields.pattern(), worker.decoded, places[i]);
                 if (support > 0 && !supported.covers(p.x(), p.y())) continue;
                 proposals[j][i] = p;
             }
@@ -128,8 +128,8 @@ Candidates propose(const FieldSet& fields, const AnalysisResult& analysis, doubl
     return candidates;
 }
 
-/// Spacing first, then count: the number of points falls with the square of the spacing on a surface,
-/// linearly on a curve; the exponent is taken from the last two tries.
+/// Spacing first, then count: the number of points falls with the square of the spacing on a
+/// surface, linearly on a curve; the exponent is taken from the last two tries.
 class SpacingSearch {
 public:
     SpacingSearch(double first, std::size_t wanted)
@@ -142,8 +142,8 @@ public:
         const double found = std::max<double>(1, static_cast<double>(count));
         if (std::abs(found - wanted_) <= kCountTolerance / 2 * wanted_) return true;
         if (last_count_ > 0 && found != last_count_) {
-            exponent_ = std::clamp(std::log(found / last_count_) / std::log(last_spacing_ / spacing_),
-                                   0.7, 3.0);
+            exponent_ = std::clamp(
+                std::log(found / last_count_) / std::log(last_spacing_ / spacing_), 0.7, 3.0);
         }
         last_spacing_ = spacing_;
         last_count_ = found;
@@ -182,8 +182,8 @@ void validate(const ResampleParams& params) {
     }
 }
 
-/// First guess of tau_p for a number of points, from the area that the disks of all LPFs suggest: seeds are
-/// a packing themselves.
+/// First guess of tau_p for a number of points, from the area that the disks of all LPFs suggest:
+/// seeds are a packing themselves.
 double guess_spacing(const FieldSet& fields, const AnalysisParams& params, std::size_t wanted) {
     const double seeds_apart = std::max(params.seed_spacing, 0.05) * params.radius;
     const double area = static_cast<double>(fields.size()) * seeds_apart * seeds_apart;
@@ -198,8 +198,7 @@ ResampleResult resample(const Shape& shape, const ResampleParams& params,
     check_points(shape.cloud.points);
     Shape smooth{{shape.cloud.points, {}}, shape.triangles};
     if (params.denoise) {
-        smooth.cloud.points =
-            denoise(shape, *params.denoise, part_of(execution, 0.0, 0.4)).points;
+        smooth.cloud.points = denoise(shape, *params.denoise, part_of(execution, 0.0, 0.4)).points;
     }
     const Execution rest = part_of(execution, params.denoise ? 0.4 : 0.0, 1.0);
     FieldSet fields(smooth, params.analysis, part_of(rest, 0.0, 0.02));
@@ -228,8 +227,7 @@ ResampleResult resample(const Shape& shape, const ResampleParams& params,
     for (std::size_t i = 0; i < found.points.size(); ++i) {
         result.points.col(static_cast<Eigen::Index>(i)) = found.points[i];
     }
-    result.source =
-        nearest_sources(shape.cloud.points, result.points, part_of(rest, 0.9, 1.0));
+    result.source = nearest_sources(shape.cloud.points, result.points, part_of(rest, 0.9, 1.0));
     return result;
 }
 

@@ -1,7 +1,7 @@
 #include "core/base/kernels.h"
 
-// One binary runs on every x86-64 and uses what the machine has. Elsewhere, and under sanitizers, the
-// plain loops are compiled once.
+// One binary runs on every x86-64 and uses what the machine has. Elsewhere, and under sanitizers,
+// the plain loops are compiled once.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(LPF_NO_MULTIVERSION)
 #define LPF_MULTIVERSION \
     __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
@@ -89,8 +89,7 @@ PairMoments pair_moments(const float* u, const float* v, const float* w, std::si
 }
 
 LPF_MULTIVERSION
-void to_frame(const float* axes, const float* origin, float* x, float* y, float* z,
-              std::size_t n) {
+void to_frame(const float* axes, const float* origin, float* x, float* y, float* z, std::size_t n) {
     const float ox = origin[0], oy = origin[1], oz = origin[2];
     const float a0 = axes[0], a1 = axes[1], a2 = axes[2];
     const float a3 = axes[3], a4 = axes[4], a5 = axes[5];
@@ -128,8 +127,8 @@ void convolve(const float* in, float* out, std::size_t n, int stride, const floa
         const std::size_t size = n - begin < kBlock ? n - begin : kBlock;
         float sums[kBlock] = {};
         for (int k = -reach; k <= reach; ++k) {
-            const float* from = in + static_cast<std::ptrdiff_t>(begin) +
-                                static_cast<std::ptrdiff_t>(k) * stride;
+            const float* from =
+                in + static_cast<std::ptrdiff_t>(begin) + static_cast<std::ptrdiff_t>(k) * stride;
             const float tap = taps[k];
             if (size == kBlock) {
 #pragma omp simd

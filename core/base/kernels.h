@@ -21,9 +21,9 @@ void add_scaled(float scale, const float* in, float* out, std::size_t n);
 
 /// Raw moments of two point sets a = u + v and b = u + w, each three channels of n floats.
 struct PairMoments {
-    float a[3];      ///< sum a
-    float b[3];      ///< sum b
-    float ab[9];     ///< sum a b', row-major
+    float a[3];   ///< sum a
+    float b[3];   ///< sum b
+    float ab[9];  ///< sum a b', row-major
 };
 PairMoments pair_moments(const float* u, const float* v, const float* w, std::size_t n);
 
@@ -35,8 +35,7 @@ void second_moments(const float* x, const float* y, const float* z, std::size_t 
 
 /// out[i] = sum over k in [-reach, reach] of taps[k] in[i + k stride], for i in [0, n).
 /// @param taps points at the middle of 2 reach + 1 values
-void convolve(const float* in, float* out, std::size_t n, int stride, const float* taps,
-              int reach);
+void convolve(const float* in, float* out, std::size_t n, int stride, const float* taps, int reach);
 
 /// Appends to the outputs the points of a run that lie within `limit` of the centre.
 /// dx = float((x[i] - centre[0]) * scale) and so on; kept when dx^2 + dy^2 + dz^2 <= limit^2.

@@ -36,7 +36,8 @@ private:
     void report() {
         if (!sink_) return;
         last_ = Clock::now();
-        const double fraction = total_ ? static_cast<double>(done_) / static_cast<double>(total_) : 1;
+        const double fraction =
+            total_ ? static_cast<double>(done_) / static_cast<double>(total_) : 1;
         sink_({phase_, done_, total_, unit_, fraction});
     }
 
@@ -52,7 +53,8 @@ private:
 }  // namespace
 
 void throw_if_cancelled(const Execution& execution) {
-    if (execution.stop.stop_requested()) throw Error(ErrorCode::Cancelled, "The job was cancelled.");
+    if (execution.stop.stop_requested())
+        throw Error(ErrorCode::Cancelled, "The job was cancelled.");
 }
 
 void parallel_for(const Execution& execution, std::size_t n, std::size_t chunk_size,

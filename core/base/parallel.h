@@ -16,9 +16,10 @@ struct Execution {
     ProgressSink progress = {};
 };
 
-/// Runs `body(begin, end, chunk)` over [0, n) in fixed chunks of `chunk_size`, on `threads` threads.
-/// The chunks do not depend on the number of threads: results that are merged in chunk order are
-/// bit-identical for any number. The first exception of a body is rethrown after all threads ended.
+/// Runs `body(begin, end, chunk)` over [0, n) in fixed chunks of `chunk_size`, on `threads`
+/// threads. The chunks do not depend on the number of threads: results that are merged in chunk
+/// order are bit-identical for any number. The first exception of a body is rethrown after all
+/// threads ended.
 /// @throws Error{Cancelled} when the stop token fires
 void parallel_for(const Execution& execution, std::size_t n, std::size_t chunk_size,
                   const std::function<void(std::size_t, std::size_t, std::size_t)>& body);

@@ -5,12 +5,13 @@
 namespace lpf {
 
 /// Pose of one LPF: where its pattern sits. Local coordinates are float32, in units of the LPF's
-/// radius, relative to the fixed centre of its target area, so that coordinates of any size lose nothing.
+/// radius, relative to the fixed centre of its target area, so that coordinates of any size lose
+/// nothing.
 struct Frame {
     Eigen::Vector3d centre;  ///< centre of the target area, fixed for good [input length]
     double radius = 1.0;     ///< r of this LPF [input length], > 0
-    Eigen::Vector3f origin = Eigen::Vector3f::Zero();        ///< seed s - centre [radius]
-    Eigen::Matrix3f axes = Eigen::Matrix3f::Identity();      ///< columns t1, t2, n; in SO(3)
+    Eigen::Vector3f origin = Eigen::Vector3f::Zero();    ///< seed s - centre [radius]
+    Eigen::Matrix3f axes = Eigen::Matrix3f::Identity();  ///< columns t1, t2, n; in SO(3)
 
     /// The seed s [input length].
     [[nodiscard]] Eigen::Vector3d seed() const { return centre + radius * origin.cast<double>(); }

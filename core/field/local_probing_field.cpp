@@ -10,7 +10,7 @@
 namespace lpf {
 namespace {
 
-constexpr float kCurveThreshold = 0.13F;
+constexpr float kCurveThreshold = 0.19F;
 
 }  // namespace
 

@@ -122,8 +122,9 @@ Eigen::Vector3f Pattern::point(int i) const {
     return {channel(0)[i], channel(1)[i], channel(2)[i]};
 }
 
-/// Fills the raster that finds the nodes around a place: on a grid one node a cell, which is the node
-/// itself or the nearest inside the disk; otherwise the four nearest nodes of the cell's centre.
+/// Fills the raster that finds the nodes around a place: on a grid one node a cell, which is the
+/// node itself or the nearest inside the disk; otherwise the four nearest nodes of the cell's
+/// centre.
 void Pattern::index_nodes() {
     by_distance_.resize(static_cast<std::size_t>(size_));
     std::iota(by_distance_.begin(), by_distance_.end(), 0);

@@ -6,9 +6,9 @@
 
 namespace lpf {
 
-/// The sampling pattern (paper Sec. 2.1): M offsets u_i from the seed, in the LPF's own frame and in
-/// units of the pattern radius, so |u_i| <= 1 in the plane. Stored as three channels x, y, z, each padded
-/// with zeros to a multiple of 16 floats so that kernels run over whole vectors.
+/// The sampling pattern (paper Sec. 2.1): M offsets u_i from the seed, in the LPF's own frame and
+/// in units of the pattern radius, so |u_i| <= 1 in the plane. Stored as three channels x, y, z,
+/// each padded with zeros to a multiple of 16 floats so that kernels run over whole vectors.
 class Pattern {
 public:
     /// A regular n x n grid cut to the open disk: nodes (i, j) with i^2 + j^2 < (n/2)^2, step 2/n.
@@ -27,10 +27,12 @@ public:
     /// The grid whose number of points is nearest to `points` (the smaller on a tie).
     static int grid_size_for(int points);
 
-    [[nodiscard]] int size() const { return size_; }           ///< M
-    [[nodiscard]] int padded_size() const { return padded_; }  ///< M rounded up to 16
-    [[nodiscard]] int grid_size() const { return grid_size_; } ///< n, or 0 if it is not a grid
-    [[nodiscard]] float step() const { return step_; }  ///< tau_s: grid step, or sqrt(pi / M) [radius]
+    [[nodiscard]] int size() const { return size_; }            ///< M
+    [[nodiscard]] int padded_size() const { return padded_; }   ///< M rounded up to 16
+    [[nodiscard]] int grid_size() const { return grid_size_; }  ///< n, or 0 if it is not a grid
+    [[nodiscard]] float step() const {
+        return step_;
+    }  ///< tau_s: grid step, or sqrt(pi / M) [radius]
 
     /// Channel c (0 = x, 1 = y, 2 = z): padded_size() floats.
     [[nodiscard]] const float* channel(int c) const { return data_.data() + c * padded_; }
@@ -39,8 +41,9 @@ public:
     /// The nodes in order of their distance to the centre.
     [[nodiscard]] const std::vector<int>& by_distance() const { return by_distance_; }
 
-    /// Four nodes and weights that interpolate a field at (x, y): bilinear on a grid, inverse distance
-    /// on the nearest nodes otherwise. Weights sum to 1. Outside the nodes: the nearest ones.
+    /// Four nodes and weights that interpolate a field at (x, y): bilinear on a grid, inverse
+    /// distance on the nearest nodes otherwise. Weights sum to 1. Outside the nodes: the nearest
+    /// ones.
     struct Stencil {
         int node[4];
         float weight[4];
@@ -55,10 +58,10 @@ private:
     int padded_ = 0;
     int grid_size_ = 0;
     float step_ = 0;
-    std::vector<float> data_;       // x, y, z channels
+    std::vector<float> data_;  // x, y, z channels
     std::vector<int> by_distance_;
-    int raster_size_ = 0;           // lookup raster over [-1, 1]^2, raster_size_ cells a side
-    std::vector<int> raster_;       // grid: node at lattice corner; otherwise: four nearest nodes
+    int raster_size_ = 0;      // lookup raster over [-1, 1]^2, raster_size_ cells a side
+    std::vector<int> raster_;  // grid: node at lattice corner; otherwise: four nearest nodes
 };
 
 }  // namespace lpf

@@ -21,8 +21,8 @@ enum class ProbingKind {
 
 /// What a probe works on and in; one for each thread, reused from LPF to LPF.
 struct ProbeScratch {
-    TargetArea target;            ///< in frame coordinates when probing
-    std::vector<float> raster;    ///< cells of the operator's own
+    TargetArea target;          ///< in frame coordinates when probing
+    std::vector<float> raster;  ///< cells of the operator's own
     std::vector<float> raster2;
     std::vector<int> cells;
     std::vector<int> cells2;
@@ -48,17 +48,17 @@ std::unique_ptr<ProbingOperator> make_orthogonal_probing(const Pattern& pattern)
 /// Nearest point in space: iterative closest points (Sec. 2.2). For comparison.
 std::unique_ptr<ProbingOperator> make_nearest_point_probing(const Pattern& pattern);
 
-/// Mean height of the target around each node under a Gaussian kernel; nodes keep their place in the
-/// plane. A node without support is pulled to the mean of the nearest node that has it. On curves, the
-/// mean cross-section along t1.
+/// Mean height of the target around each node under a Gaussian kernel; nodes keep their place in
+/// the plane. A node without support is pulled to the mean of the nearest node that has it. On
+/// curves, the mean cross-section along t1.
 /// @param width of the kernel, its standard deviation [radius]
 std::unique_ptr<ProbingOperator> make_noise_aware_probing(const Pattern& pattern, double width);
 
-/// Points on the triangles of a mesh, so that a mesh has target areas like a cloud: the centroids of a
-/// regular subdivision finer than `spacing`, and the triangle of each.
+/// Points on the triangles of a mesh, so that a mesh has target areas like a cloud: the centroids
+/// of a regular subdivision finer than `spacing`, and the triangle of each.
 struct MeshSamples {
-    Points points;                         ///< 3 x K
-    std::vector<std::uint32_t> triangle;   ///< K
+    Points points;                        ///< 3 x K
+    std::vector<std::uint32_t> triangle;  ///< K
 };
 [[nodiscard]] MeshSamples sample_mesh(const Shape& mesh, double spacing);
 

@@ -23,7 +23,8 @@ void nearest_on_segment(const Eigen::Vector3f& a, const Eigen::Vector3f& b, floa
     const float t = length > 0 ? (Eigen::Vector2f(x, y) - a.head<2>()).dot(along) / length : 0.0F;
     const Eigen::Vector3f at = a + std::clamp(t, 0.0F, 1.0F) * (b - a);
     const float squared = (at.head<2>() - Eigen::Vector2f(x, y)).squaredNorm();
-    if (squared < best_squared || (squared == best_squared && std::abs(at.z()) < std::abs(best.z()))) {
+    if (squared < best_squared ||
+        (squared == best_squared && std::abs(at.z()) < std::abs(best.z()))) {
         best_squared = squared;
         best = at;
     }

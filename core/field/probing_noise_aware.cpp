@@ -15,7 +15,7 @@ constexpr int kChannels = 4;
 /// Nodes with less support than one point about 1.5 kernel widths away know nothing...
 constexpr float kLeastSupport = 0.3F;
 /// ...nor do those with less than this share of the mean support over the disk: beyond a border.
-constexpr float kLeastShare = 0.2F;
+constexpr float kLeastShare = 0.5F;
 
 class NoiseAwareProbing final : public ProbingOperator {
 public:
@@ -63,8 +63,8 @@ private:
         const int row = kChannels * side_;
         const int begin = margin_ * row;
         const auto inner = static_cast<std::size_t>((side_ - 2 * margin_) * row);
-        kernels::convolve(scratch.raster.data() + begin, scratch.raster2.data() + begin, inner,
-                          row, tap_centre(), margin_);
+        kernels::convolve(scratch.raster.data() + begin, scratch.raster2.data() + begin, inner, row,
+                          tap_centre(), margin_);
         kernels::convolve(scratch.raster2.data() + begin, scratch.raster.data() + begin, inner,
                           kChannels, tap_centre(), margin_);
         read_nodes(scratch, node_cell_, false, v);
@@ -95,8 +95,9 @@ private:
         }
     }
 
-    /// From the blurred raster to displacements. On a curve the node moves within the cross-section,
-    /// on a surface only along the normal; without support it is pulled to the nearest mean.
+    /// From the blurred raster to displacements. On a curve the node moves within the
+    /// cross-section, on a surface only along the normal; without support it is pulled to the
+    /// nearest mean.
     void read_nodes(ProbeScratch& scratch, const std::vector<int>& cell_of_node, bool curve,
                     float* v) const {
         const int m = pattern_.size();

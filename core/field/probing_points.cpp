@@ -8,8 +8,8 @@
 namespace lpf {
 namespace {
 
-void set_displacement(const Pattern& pattern, const TargetArea& target, int node,
-                      std::size_t point, float* v) {
+void set_displacement(const Pattern& pattern, const TargetArea& target, int node, std::size_t point,
+                      float* v) {
     const int stride = pattern.padded_size();
     v[node] = target.x[point] - pattern.channel(0)[node];
     v[stride + node] = target.y[point] - pattern.channel(1)[node];

@@ -67,8 +67,8 @@ PointGrid::PointGrid(const Points& points, double cell) {
 std::uint64_t PointGrid::key_of(const Eigen::Vector3d& relative) const {
     std::uint64_t cell[3];
     for (int axis = 0; axis < 3; ++axis) {
-        cell[axis] = std::min(static_cast<std::uint64_t>(relative[axis] * inverse_cell_),
-                              size_[axis] - 1);
+        cell[axis] =
+            std::min(static_cast<std::uint64_t>(relative[axis] * inverse_cell_), size_[axis] - 1);
     }
     return (cell[2] * size_[1] + cell[1]) * size_[0] + cell[0];
 }
@@ -136,9 +136,9 @@ void PointGrid::gather(const Frame& frame, float reach, TargetArea& target) cons
     const auto gather_run = [&](std::size_t begin, std::size_t end) {
         target.reserve(target.size + end - begin);
         const std::size_t at = target.size;
-        target.size += kernels::gather_ball(
-            &x_[begin], &y_[begin], &z_[begin], end - begin, centre.data(), scale, reach, begin,
-            &target.x[at], &target.y[at], &target.z[at], &target.index[at]);
+        target.size += kernels::gather_ball(&x_[begin], &y_[begin], &z_[begin], end - begin,
+                                            centre.data(), scale, reach, begin, &target.x[at],
+                                            &target.y[at], &target.z[at], &target.index[at]);
     };
     for (std::uint64_t z = low[2]; z <= high[2]; ++z) {
         auto row = rows_.begin() + slab_first_row_[z];

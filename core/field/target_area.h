@@ -10,11 +10,12 @@
 
 namespace lpf {
 
-/// The points of the shape that one LPF accounts for (paper Sec. 3.1): structure of arrays, float32, in
-/// units of the LPF's radius. Reused from LPF to LPF, so that the inner loops allocate nothing.
+/// The points of the shape that one LPF accounts for (paper Sec. 3.1): structure of arrays,
+/// float32, in units of the LPF's radius. Reused from LPF to LPF, so that the inner loops allocate
+/// nothing.
 struct TargetArea {
-    std::vector<float> x, y, z;          ///< `size` values in use
-    std::vector<std::uint32_t> index;    ///< of each point in the PointGrid's order
+    std::vector<float> x, y, z;        ///< `size` values in use
+    std::vector<std::uint32_t> index;  ///< of each point in the PointGrid's order
     std::size_t size = 0;
 
     void reserve(std::size_t points);
@@ -24,7 +25,8 @@ struct TargetArea {
 };
 
 /// The cloud sorted into cubic cells, for gathering balls of points about as large as a cell.
-/// Points of a row of cells lie one behind the other. Any extent is fine: only cells with points exist.
+/// Points of a row of cells lie one behind the other. Any extent is fine: only cells with points
+/// exist.
 class PointGrid {
 public:
     /// @param cell side of the cells [input length], > 0
@@ -40,8 +42,8 @@ public:
         return origin_ + Eigen::Vector3d(x_[i], y_[i], z_[i]);
     }
 
-    /// All points within `reach` radii of the frame's centre, relative to the centre and in units of
-    /// the frame's radius, in a fixed order.
+    /// All points within `reach` radii of the frame's centre, relative to the centre and in units
+    /// of the frame's radius, in a fixed order.
     void gather(const Frame& frame, float reach, TargetArea& target) const;
 
 private:
@@ -62,7 +64,7 @@ private:
     double inverse_cell_ = 1.0;
     std::uint64_t size_[3] = {1, 1, 1};  // cells along each axis
     std::vector<std::uint32_t> order_;
-    std::vector<double> x_, y_, z_;           // relative to origin_
+    std::vector<double> x_, y_, z_;              // relative to origin_
     std::vector<std::uint32_t> slab_first_row_;  // size_[2] + 1, into rows_
     std::vector<Row> rows_;                      // one more than there are
     std::vector<Cell> cells_;                    // one more than there are

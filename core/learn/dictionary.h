@@ -9,14 +9,15 @@
 namespace lpf {
 
 /// D: d atoms, each a deformation field over one pattern (paper Eq. 2), in units of the radius.
-/// An atom is three channels (x, y, z) of pattern.padded_size() floats, padding zero; its norm is <= 1.
+/// An atom is three channels (x, y, z) of pattern.padded_size() floats, padding zero; its norm is
+/// <= 1.
 class Dictionary {
 public:
     Dictionary(Pattern pattern, int atoms);
 
     [[nodiscard]] const Pattern& pattern() const { return pattern_; }
-    [[nodiscard]] int atoms() const { return atoms_; }                       ///< d
-    [[nodiscard]] std::size_t stride() const { return stride_; }             ///< floats of an atom
+    [[nodiscard]] int atoms() const { return atoms_; }            ///< d
+    [[nodiscard]] std::size_t stride() const { return stride_; }  ///< floats of an atom
     [[nodiscard]] std::span<float> atom(int k);
     [[nodiscard]] std::span<const float> atom(int k) const;
     [[nodiscard]] const float* data() const { return values_.data(); }
@@ -34,8 +35,8 @@ private:
     std::vector<float> values_;
 };
 
-/// What a round of coding leaves for the dictionary update: A = sum a a' and B = sum V a' (Mairal et al.
-/// 2010, "Online learning for matrix factorization and sparse coding", algorithm 1).
+/// What a round of coding leaves for the dictionary update: A = sum a a' and B = sum V a' (Mairal
+/// et al. 2010, "Online learning for matrix factorization and sparse coding", algorithm 1).
 class DictionaryStatistics {
 public:
     DictionaryStatistics(int atoms, std::size_t stride);
@@ -44,8 +45,8 @@ public:
     void add(std::span<const float> code, std::span<const float> field);
     void add(const DictionaryStatistics& other);
 
-    /// One sweep of block coordinate descent over the atoms: lowers sum |V - D a|^2 with the codes fixed,
-    /// norms kept <= 1. @returns the atoms that no code uses, which stay as they are
+    /// One sweep of block coordinate descent over the atoms: lowers sum |V - D a|^2 with the codes
+    /// fixed, norms kept <= 1. @returns the atoms that no code uses, which stay as they are
     std::vector<int> update(Dictionary& dictionary) const;
 
 private:

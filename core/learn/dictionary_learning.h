@@ -38,8 +38,8 @@ struct FieldSample {
 [[nodiscard]] Dictionary draw_dictionary(const Pattern& pattern, int atoms,
                                          const FieldSample& sample, std::uint64_t random_seed);
 
-/// Alternates sparse coding and dictionary update on the sample (paper Sec. 3.3). Neither step raises
-/// the energy of the sample. Atoms that nothing uses are drawn anew from the sample.
+/// Alternates sparse coding and dictionary update on the sample (paper Sec. 3.3). Neither step
+/// raises the energy of the sample. Atoms that nothing uses are drawn anew from the sample.
 /// @param codes count x d; in: where to start from, out: codes for the learned dictionary
 void learn_dictionary(const FieldSample& sample, const Coder& coder, int rounds,
                       std::uint64_t random_seed, Dictionary& dictionary, SparseCodes& codes,

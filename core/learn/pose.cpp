@@ -83,7 +83,8 @@ RigidFit fit_pose(const Pattern& pattern, const float* v, const float* w) {
     const double inverse = 1.0 / pattern.size();
     const Eigen::Vector3d a = inverse * Eigen::Vector3f(sums.a).cast<double>();
     const Eigen::Vector3d b = inverse * Eigen::Vector3f(sums.b).cast<double>();
-    const Eigen::Matrix3f ab = Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(sums.ab);
+    const Eigen::Matrix3f ab =
+        Eigen::Map<const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(sums.ab);
     const Eigen::Matrix3d correlation = inverse * ab.cast<double>() - a * b.transpose() +
                                         kRegularisation * Eigen::Matrix3d::Identity();
     RigidFit fit;

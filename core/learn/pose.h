@@ -17,12 +17,14 @@ struct RigidFit {
 /// Horn's quaternion method; the identity where S leaves it open.
 [[nodiscard]] Eigen::Matrix3f best_rotation(const Eigen::Matrix3d& correlation);
 
-/// Pose optimisation (paper Eq. 4 and 5): R, t that minimise sum |R (u_i + v_i) + t - (u_i + w_i)|^2.
+/// Pose optimisation (paper Eq. 4 and 5): R, t that minimise sum |R (u_i + v_i) + t - (u_i +
+/// w_i)|^2.
 /// @param v,w fields of three channels of pattern.padded_size() floats: probed, and reconstructed
 [[nodiscard]] RigidFit fit_pose(const Pattern& pattern, const float* v, const float* w);
 
-/// Moves the frame so that every probed point s + F (u_i + v_i) stays where it is when the field becomes
-/// R (u + v) + t - u. Departs from Eq. (6), which moves the probed points when taken literally.
+/// Moves the frame so that every probed point s + F (u_i + v_i) stays where it is when the field
+/// becomes R (u + v) + t - u. Departs from Eq. (6), which moves the probed points when taken
+/// literally.
 void apply_pose(const RigidFit& fit, Frame& frame);
 
 /// v_i <- R (u_i + v_i) + t - u_i.

@@ -6,8 +6,8 @@
 
 namespace lpf {
 
-/// The codes alpha_j of all LPFs, d coefficients each, nearly all of them zero. Kept dense: d is small,
-/// and the next iteration starts from them.
+/// The codes alpha_j of all LPFs, d coefficients each, nearly all of them zero. Kept dense: d is
+/// small, and the next iteration starts from them.
 class SparseCodes {
 public:
     SparseCodes() = default;

@@ -8,7 +8,16 @@
 
 namespace lpf {
 
-enum class ScalarType : std::uint8_t { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
+enum class ScalarType : std::uint8_t {
+    Int8,
+    UInt8,
+    Int16,
+    UInt16,
+    Int32,
+    UInt32,
+    Float32,
+    Float64
+};
 
 /// Bytes of one value.
 [[nodiscard]] constexpr std::size_t size_of(ScalarType type) {

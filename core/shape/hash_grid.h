@@ -8,9 +8,9 @@
 
 namespace lpf {
 
-/// Points that are added one by one and searched within a fixed reach. Cells are two reaches wide, so
-/// that a ball meets at most eight of them; only cells with points exist. Distances decide, so two
-/// cells with equal hashes cost time but change nothing.
+/// Points that are added one by one and searched within a fixed reach. Cells are two reaches wide,
+/// so that a ball meets at most eight of them; only cells with points exist. Distances decide, so
+/// two cells with equal hashes cost time but change nothing.
 class HashGrid {
 public:
     /// @param low   corner below all points  @param extent largest side of their box

@@ -19,7 +19,7 @@ constexpr std::size_t kPointsInBall = 150;
 constexpr std::size_t kFewestForPlane = 8;
 
 /// A ball narrower than this many sigma cuts the noise off and makes it look smaller than it is.
-constexpr double kSigmasInBall = 3.0;
+constexpr double kSigmasInBall = 4.0;
 constexpr int kRounds = 6;
 constexpr std::size_t kMostInBall = 3000;
 

@@ -10,10 +10,10 @@ namespace lpf {
 /// What the automatic parameters are made from.
 struct Measurements {
     std::size_t points = 0;
-    double diagonal = 0.0;       ///< of the bounding box [input length]
-    double mean_spacing = 0.0;   ///< mean distance to the nearest other position [input length]
-    double noise = 0.0;          ///< sigma, standard deviation off the local surface [input length]
-    double density_radius = 0.0; ///< radius whose ball holds about 150 points [input length]
+    double diagonal = 0.0;      ///< of the bounding box [input length]
+    double mean_spacing = 0.0;  ///< mean distance to the nearest other position [input length]
+    double noise = 0.0;         ///< sigma, standard deviation off the local surface [input length]
+    double density_radius = 0.0;  ///< radius whose ball holds about 150 points [input length]
 };
 
 /// Measures a cloud on a sample of its points. Duplicates do not count as neighbours.

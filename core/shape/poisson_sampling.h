@@ -8,8 +8,8 @@
 
 namespace lpf {
 
-/// Poisson-disk subset of the points: no two nearer than `spacing`, and every point within `spacing`
-/// of a chosen one (paper Sec. 3.1). spacing = 0 chooses every point.
+/// Poisson-disk subset of the points: no two nearer than `spacing`, and every point within
+/// `spacing` of a chosen one (paper Sec. 3.1). spacing = 0 chooses every point.
 /// @returns indices of the chosen points, ascending
 [[nodiscard]] std::vector<std::uint32_t> poisson_disk_subset(const Points& points, double spacing,
                                                              std::uint64_t random_seed,
