@@ -1,0 +1,113 @@
+#include "server/config.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <iostream>
+#include <map>
+
+namespace lpf::server {
+namespace {
+
+/// "--data-dir" -> "LPF_DATA_DIR"
+std::string variable_of(const std::string& flag) {
+    std::string name = "LPF_";
+    for (const char c : flag.substr(2))
+        name += c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    return name;
+}
+
+template <typename Value>
+CLI::Option* add(CLI::App& app, const std::string& flag, Value& value, const std::string& help) {
+    return app.add_option(flag, value, help)->envname(variable_of(flag))->capture_default_str();
+}
+
+void add_network_and_work(CLI::App& app, Config& config) {
+    add(app, "--host", config.host, "Address to listen on");
+    add(app, "--port", config.port, "Port of the service; 0 picks a free one")
+        ->check(CLI::Range(0, 65535));
+    add(app, "--admin-port", config.admin_port,
+        "Port of /healthz, /readyz and /metrics; 0 picks a free one")
+        ->check(CLI::Range(0, 65535));
+    add(app, "--data-dir", config.data_dir, "Folder for jobs, shapes and results");
+    add(app, "--web-dir", config.web_dir, "Folder with the web page to serve at /");
+    add(app, "--jobs", config.jobs, "Jobs worked on at a time; 0 chooses from the cores")
+        ->check(CLI::Range(0, 256));
+    add(app, "--threads", config.threads, "Threads of each job; 0 shares the cores out")
+        ->check(CLI::Range(0, 1024));
+    add(app, "--http-threads", config.http_threads, "Requests served at a time; 0 chooses")
+        ->check(CLI::Range(0, 1024));
+    const std::map<std::string, LogLevel> levels{{"debug", LogLevel::Debug},
+                                                 {"info", LogLevel::Info},
+                                                 {"warn", LogLevel::Warn},
+                                                 {"error", LogLevel::Error}};
+    app.add_option("--log-level", config.log_level, "Least level of the log: debug info warn error")
+        ->envname("LPF_LOG_LEVEL")
+        ->transform(CLI::CheckedTransformer(levels, CLI::ignore_case));
+}
+
+void add_limits(CLI::App& app, Limits& limits) {
+    for (const LimitField& field : limit_table()) {
+        const std::string flag = limit_flag(field.name);
+        if (flag.empty()) continue;
+        add(app, flag, limits.*field.value,
+            std::string(field.description) + " [" + std::string(field.unit) + "]")
+            ->group("Limits");
+    }
+}
+
+}  // namespace
+
+std::string limit_flag(std::string_view limit_name) {
+    // Limits that are documented on the wire but not yet enforced must not look like switches.
+    constexpr std::array kNotYet{
+        "connections",      "connectionsPerAddress", "requestsPerSecond",     "requestBurst",
+        "uploadsPerSecond", "queuedJobsPerKey",      "uploadRetentionSeconds"};
+    if (std::find(kNotYet.begin(), kNotYet.end(), limit_name) != kNotYet.end()) return {};
+    const bool is_maximum = limit_name.find("Retention") == std::string_view::npos &&
+                            limit_name.find("Floor") == std::string_view::npos;
+    std::string flag = is_maximum ? "--max-" : "--";
+    for (const char c : limit_name) {
+        const bool upper = std::isupper(static_cast<unsigned char>(c)) != 0;
+        if (upper) flag += '-';
+        flag += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    return flag;
+}
+
+CommandLine parse_command_line(int argc, const char* const* argv) {
+    CommandLine line;
+    CLI::App app("LPF Server: denoises, resamples and analyses 3D shapes over HTTP", "lpf-server");
+    app.set_version_flag("--version", "lpf-server " + version());
+    app.set_config("--config", "", "Configuration file: one 'flag = value' a line, without --")
+        ->envname("LPF_CONFIG");
+    app.allow_config_extras(CLI::config_extras_mode::error);
+    app.add_flag("--healthcheck", line.config.health_check,
+                 "Ask the server on --host and --admin-port whether it is healthy, and exit with 0 "
+                 "or 1");
+    add_network_and_work(app, line.config);
+    add_limits(app, line.config.limits);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        line.exit_code = app.exit(error, std::cout, std::cerr) == 0 ? 0 : 2;
+    }
+    return line;
+}
+
+Config resolve_threads(Config config, int cores) {
+    if (config.jobs == 0) {
+        const int by_threads = config.threads > 0 ? cores / config.threads : cores / 4;
+        config.jobs = std::clamp(by_threads, 1, 8);
+    }
+    config.jobs = std::min(config.jobs, cores);
+    const int share = std::max(1, cores / config.jobs);
+    config.threads = config.threads == 0 ? share : std::min(config.threads, share);
+    if (config.http_threads == 0) config.http_threads = std::max(16, 2 * cores);
+    return config;
+}
+
+std::string version() { return LPF_VERSION; }
+
+}  // namespace lpf::server

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "api/limits.h"
+#include "server/log.h"
+
+namespace lpf::server {
+
+/// Everything that an operator can set. Each field is a flag, a variable LPF_* of the environment
+/// and a key of the configuration file; the flag wins over the variable, the variable over the
+/// file.
+struct Config {
+    std::string host = "127.0.0.1";
+    int port = 8080;        ///< 0 picks a free one
+    int admin_port = 8081;  ///< 0 picks a free one
+    std::filesystem::path data_dir = "lpf-data";
+    std::filesystem::path web_dir;  ///< empty: only the plain index page
+    int jobs = 0;                   ///< jobs worked on at a time; 0 = chosen from the cores
+    int threads = 0;                ///< threads of each job; 0 = cores / jobs
+    int http_threads = 0;           ///< requests served at a time; 0 = chosen from the cores
+    LogLevel log_level = LogLevel::Info;
+    Limits limits = {};
+    bool health_check = false;  ///< only ask a running server whether it is healthy
+};
+
+/// What the command line led to: a configuration, or an end of the program.
+struct CommandLine {
+    Config config;
+    std::optional<int> exit_code;  ///< set after --help, --version or a mistake, which were printed
+};
+
+/// Reads flags, environment and configuration file.
+[[nodiscard]] CommandLine parse_command_line(int argc, const char* const* argv);
+
+/// Fills in what was left to be chosen, so that jobs x threads never exceeds the cores.
+[[nodiscard]] Config resolve_threads(Config config, int cores);
+
+/// Flag of a limit: "uploadBytes" -> "--max-upload-bytes"; empty if it is no flag.
+[[nodiscard]] std::string limit_flag(std::string_view limit_name);
+
+/// The program's version.
+[[nodiscard]] std::string version();
+
+}  // namespace lpf::server

@@ -1,0 +1,46 @@
+#include "server/answer.h"
+#include "server/handlers/handlers.h"
+#include "server/web_files.h"
+
+namespace lpf::server {
+namespace {
+
+// Scripts, styles and workers of this host only; WebAssembly for the Draco decoder.
+constexpr const char* kPagePolicy =
+    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; "
+    "img-src 'self' data: blob:; font-src 'self'; connect-src 'self' blob:; "
+    "worker-src 'self' blob:; base-uri 'none'; form-action 'self'; frame-ancestors 'none'";
+
+// The plain page has one style sheet inside, and nothing else.
+constexpr const char* kPlainPolicy =
+    "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'; "
+    "frame-ancestors 'none'";
+
+http::Response plain_page() {
+    http::Response response;
+    response.content_type = "text/html; charset=utf-8";
+    response.body = plain_index(version());
+    response.set("Content-Security-Policy", kPlainPolicy);
+    return response;
+}
+
+}  // namespace
+
+http::Response get_web_file(Services& services, http::Request& request) {
+    request.route = "web";
+    const auto file = web_file(services.config.web_dir, request.path);
+    if (!file && request.path == "/") return plain_page();
+    if (!file) {
+        throw ProblemException(ProblemCode::NotFound,
+                               "There is nothing at this path. The API starts at /v1/, and "
+                               "/v1/openapi.json describes it.");
+    }
+    http::Response response;
+    response.content_type = std::string(web_type(*file));
+    response.file = http::FileSlice{*file, 0, std::filesystem::file_size(*file)};
+    response.set("Content-Security-Policy", kPagePolicy);
+    response.set("Cache-Control", "no-cache");
+    return response;
+}
+
+}  // namespace lpf::server

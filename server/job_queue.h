@@ -1,0 +1,100 @@
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "server/log.h"
+#include "server/running_job.h"
+#include "server/storage.h"
+#include "server/telemetry.h"
+
+namespace lpf::server {
+
+/// Does a job. Throws lpf::Error or ProblemException when it cannot be done.
+using JobWork = std::function<JobOutcome(RunningJob&)>;
+
+struct QueueOptions {
+    int workers = 1;
+    std::uint64_t max_waiting = 1000;
+    std::uint64_t max_attempts = 3;
+    double job_seconds = 3600;
+    UnixMillis result_retention = 7LL * 24 * 3600 * 1000;
+    int max_waiters = 8;  ///< requests that may wait for a job at a time
+};
+
+/// Runs the jobs of the store, oldest first, a few at a time. The store is the truth; what is kept
+/// here is only the fresher state of jobs that run right now.
+class JobQueue {
+public:
+    JobQueue(Storage& storage, Log& log, Telemetry& telemetry, QueueOptions options, JobWork work);
+    ~JobQueue();
+
+    /// Takes up what an earlier run of the server left, and starts the workers.
+    void start();
+
+    /// Takes no new jobs from now on; requests that wait for one stop waiting.
+    void refuse_new();
+
+    /// Stops the workers and gives running jobs back, as if they had not been started.
+    void stop();
+
+    /// Makes a job durable and lets it run when its turn comes.
+    /// @throws ProblemException{QueueFull, Unavailable}
+    void submit(const StatusInfo& job);
+
+    /// A job with the freshest state there is.
+    [[nodiscard]] std::optional<StoredJob> find(const std::string& id) const;
+    [[nodiscard]] JobPage list(const JobFilter& filter) const;
+
+    /// Ends a job for good; one that runs stops within a second.
+    /// @returns nothing if there is no such job, or it was dismissed before
+    std::optional<StatusInfo> dismiss(const std::string& id);
+
+    /// Waits until the job has ended or the time is up, unless too many wait already. Ends early
+    /// when `abandoned` says so.
+    /// @returns true if it has ended
+    bool wait_for(const std::string& id, std::chrono::seconds time,
+                  const std::function<bool()>& abandoned);
+
+    [[nodiscard]] bool accepting() const { return !stopping_; }
+    [[nodiscard]] Gauges gauges() const;
+    [[nodiscard]] int workers() const { return options_.workers; }
+
+private:
+    void work_until_stopped();
+    void run(ClaimedJob claim);
+    void finish(RunningJob& job, StatusInfo info, const JobOutcome& outcome);
+    void fail(RunningJob& job, const Problem& problem);
+    void end_stopped(RunningJob& job);
+    void run_guarded(RunningJob& job);
+    void watch();
+    void store_progress(const std::vector<std::shared_ptr<RunningJob>>& jobs);
+    [[nodiscard]] std::vector<std::shared_ptr<RunningJob>> running() const;
+    void tell_waiters();
+    [[nodiscard]] bool has_ended(const std::string& id) const;
+
+    Storage& storage_;
+    Log& log_;
+    Telemetry& telemetry_;
+    QueueOptions options_;
+    JobWork work_;
+    Clock::time_point started_ = Clock::now();
+
+    mutable std::mutex mutex_;
+    std::condition_variable wake_;   // a job may be waiting, or the end has come
+    std::condition_variable ended_;  // a job has ended
+    std::map<std::string, std::shared_ptr<RunningJob>> running_;
+    std::uint64_t ends_ = 0;  // jobs that have ended so far
+    std::uint64_t arrivals_ = 0;
+    std::atomic<int> waiters_ = 0;
+    std::atomic<bool> stopping_ = false;
+    std::vector<std::jthread> threads_;
+};
+
+}  // namespace lpf::server

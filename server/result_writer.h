@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+
+#include "api/codec/format.h"
+#include "api/report.h"
+#include "server/running_job.h"
+#include "server/storage.h"
+
+namespace lpf::server {
+
+/// Encodes the results of one job and stores their bytes. What a format cannot hold becomes a
+/// warning.
+class ResultWriter {
+public:
+    ResultWriter(Storage& storage, RunningJob& job, std::string version);
+
+    void add_points(const Document& document, const JobInputs& inputs,
+                    const Measurements& measurements);
+    void add_dictionary(const AnalysisResult& analysis);
+    void add_fields(const AnalysisResult& analysis);
+    void add_report(const Report& report);
+
+    /// Call once, at the end.
+    [[nodiscard]] JobOutcome take_outcome() { return std::move(outcome_); }
+
+private:
+    void store(ResultKind kind, std::string_view type, const std::string& bytes);
+
+    Storage& storage_;
+    RunningJob& job_;
+    std::string version_;
+    JobOutcome outcome_;
+};
+
+/// Bits that a Draco result needs: what was asked for, or enough for the spacing.
+[[nodiscard]] int quantization_bits(const JobInputs& inputs, const Points& points,
+                                    double mean_spacing);
+
+}  // namespace lpf::server

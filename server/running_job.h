@@ -1,0 +1,71 @@
+#pragma once
+
+#include <mutex>
+#include <optional>
+#include <shared_mutex>
+#include <stop_token>
+#include <vector>
+
+#include "core/base/progress.h"
+#include "server/clock.h"
+#include "server/job_store.h"
+
+namespace lpf::server {
+
+/// Why a running job was told to stop.
+enum class StopReason { Dismissed, TimedOut, Shutdown };
+
+/// What a job leaves behind when it succeeds.
+struct JobOutcome {
+    std::vector<ResultFile> results;
+    std::optional<StoredDictionary> dictionary;
+    std::shared_lock<std::shared_mutex> files_held;  ///< until the books name the files
+};
+
+/// A job while a worker has it: its state in memory, always fresh, and the switch that stops it.
+class RunningJob {
+public:
+    RunningJob(ClaimedJob claim, double seconds_allowed);
+
+    [[nodiscard]] const Lease& lease() const { return lease_; }
+    [[nodiscard]] StatusInfo info() const;
+    [[nodiscard]] std::stop_token stop_token() const { return stop_.get_token(); }
+    [[nodiscard]] double seconds() const { return seconds_since(started_); }
+
+    /// Changes the state under the lock.
+    template <typename Change>
+    void update(Change change) {
+        const std::lock_guard lock(mutex_);
+        change(info_);
+        info_.updated = now_millis();
+    }
+
+    void warn(std::string code, std::string detail);
+
+    /// A sink that maps a computation's progress to [low, high] percent of the job.
+    [[nodiscard]] ProgressSink progress_sink(double low, double high);
+
+    /// Enters a phase that does not count for itself.
+    void enter_phase(const std::string& phase, double percent);
+
+    /// Only the first reason counts.
+    void stop(StopReason reason);
+    [[nodiscard]] std::optional<StopReason> stop_reason() const;
+    /// Since the stop was asked for.
+    [[nodiscard]] double seconds_stopping() const;
+    [[nodiscard]] bool is_overdue() const { return Clock::now() >= deadline_; }
+
+private:
+    void set_eta();
+
+    Lease lease_;
+    Clock::time_point started_ = Clock::now();
+    Clock::time_point deadline_;
+    std::stop_source stop_;
+    mutable std::mutex mutex_;
+    StatusInfo info_;
+    std::optional<StopReason> reason_;
+    Clock::time_point stopped_;
+};
+
+}  // namespace lpf::server

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "server/http/listener.h"
+#include "server/router.h"
+#include "server/services.h"
+
+namespace lpf::server {
+
+/// A listener with its routes: every answer carries the request's id and the safe defaults, every
+/// request leaves a line in the log and is counted.
+class Site {
+public:
+    Site(Services& services, Router router, http::ListenerOptions options);
+
+    int start() { return listener_.start(); }
+    void stop(std::chrono::milliseconds patience) { listener_.stop(patience); }
+
+private:
+    [[nodiscard]] http::Response answer(http::Request& request);
+    [[nodiscard]] http::Response refuse(const Problem& problem, const std::string& request_id);
+    [[nodiscard]] http::Response finish(http::Response response, const http::Request& request,
+                                        double seconds);
+
+    Services& services_;
+    Router router_;
+    http::Listener listener_;
+};
+
+}  // namespace lpf::server

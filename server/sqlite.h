@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+struct sqlite3;
+struct sqlite3_stmt;
+
+namespace lpf::server {
+
+using SqlValue = std::variant<std::nullptr_t, std::int64_t, std::string>;
+
+/// One prepared statement while it runs: bind in the constructor, then step through the rows.
+class SqlRows {
+public:
+    SqlRows(sqlite3* db, std::string_view sql, const std::vector<SqlValue>& values);
+    ~SqlRows();
+    SqlRows(const SqlRows&) = delete;
+    SqlRows& operator=(const SqlRows&) = delete;
+
+    /// @returns false after the last row
+    bool next();
+    [[nodiscard]] std::string text(int column) const;
+    [[nodiscard]] std::int64_t integer(int column) const;
+
+private:
+    sqlite3* db_;
+    sqlite3_stmt* statement_ = nullptr;
+};
+
+/// A connection to an SQLite database: WAL, every commit on the disk before it returns. For one
+/// thread at a time. All functions throw Error{StorageFailure}.
+class SqliteDatabase {
+public:
+    enum class Mode { ReadWrite, ReadOnly };
+    SqliteDatabase(const std::filesystem::path& file, Mode mode);
+    ~SqliteDatabase();
+    SqliteDatabase(const SqliteDatabase&) = delete;
+    SqliteDatabase& operator=(const SqliteDatabase&) = delete;
+
+    [[nodiscard]] SqlRows query(std::string_view sql, const std::vector<SqlValue>& values = {});
+    /// Runs one statement. @returns number of rows changed
+    std::size_t run(std::string_view sql, const std::vector<SqlValue>& values = {});
+    /// Runs several statements that take no values.
+    void script(const std::string& sql);
+
+    [[nodiscard]] std::int64_t user_version();
+
+private:
+    sqlite3* db_ = nullptr;
+};
+
+/// Rolls back unless committed.
+class SqlTransaction {
+public:
+    explicit SqlTransaction(SqliteDatabase& db) : db_(db) { db_.script("BEGIN IMMEDIATE"); }
+    ~SqlTransaction();
+    SqlTransaction(const SqlTransaction&) = delete;
+    SqlTransaction& operator=(const SqlTransaction&) = delete;
+
+    void commit();
+
+private:
+    SqliteDatabase& db_;
+    bool open_ = true;
+};
+
+}  // namespace lpf::server

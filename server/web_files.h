@@ -1,0 +1,22 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace lpf::server {
+
+/// The file of a web folder that a path names ("/" is index.html), or nothing. Only plain names
+/// made of letters, digits, '.', '-' and '_' that do not start with a dot; nothing outside of the
+/// folder, not even through a link.
+[[nodiscard]] std::optional<std::filesystem::path> web_file(const std::filesystem::path& folder,
+                                                            std::string_view path);
+
+/// Media type by the ending of a name.
+[[nodiscard]] std::string_view web_type(const std::filesystem::path& file);
+
+/// The page for a server without a web folder: what this is, and the one line that tries it.
+[[nodiscard]] std::string plain_index(std::string_view version);
+
+}  // namespace lpf::server

@@ -1,0 +1,134 @@
+#include "server/config.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "server/cores.h"
+#include "tests/server/temporary_folder.h"
+
+namespace lpf::server {
+namespace {
+
+CommandLine parse(std::vector<const char*> arguments) {
+    arguments.insert(arguments.begin(), "lpf-server");
+    return parse_command_line(static_cast<int>(arguments.size()), arguments.data());
+}
+
+void write(const std::filesystem::path& file, const std::string& text) {
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file) << text;
+}
+
+TEST(Config, DefaultsListenOnTheLoopbackOnly) {
+    const CommandLine line = parse({});
+    EXPECT_FALSE(line.exit_code);
+    EXPECT_EQ(line.config.host, "127.0.0.1");
+    EXPECT_EQ(line.config.port, 8080);
+    EXPECT_EQ(line.config.admin_port, 8081);
+    EXPECT_EQ(line.config.limits.upload_bytes, 512ULL << 20);
+}
+
+TEST(Config, FlagsSetFields) {
+    const Config config = parse({"--port", "0", "--data-dir", "/x", "--max-upload-bytes", "1000",
+                                 "--jobs", "3", "--threads", "2", "--log-level", "warn"})
+                              .config;
+    EXPECT_EQ(config.port, 0);
+    EXPECT_EQ(config.data_dir, "/x");
+    EXPECT_EQ(config.limits.upload_bytes, 1000U);
+    EXPECT_EQ(config.jobs, 3);
+    EXPECT_EQ(config.threads, 2);
+    EXPECT_EQ(config.log_level, LogLevel::Warn);
+}
+
+TEST(Config, FlagWinsOverEnvironmentAndEnvironmentOverFile) {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "lpf.conf";
+    write(file, "port = 1111\nadmin-port = 2222\njobs = 5\n");
+    ::setenv("LPF_PORT", "3333", 1);
+    ::setenv("LPF_ADMIN_PORT", "4444", 1);
+    const Config config = parse({"--config", file.c_str(), "--admin-port", "5555"}).config;
+    ::unsetenv("LPF_PORT");
+    ::unsetenv("LPF_ADMIN_PORT");
+    EXPECT_EQ(config.port, 3333);
+    EXPECT_EQ(config.admin_port, 5555);
+    EXPECT_EQ(config.jobs, 5);
+}
+
+TEST(Config, EnvironmentSetsLimits) {
+    ::setenv("LPF_MAX_QUEUED_JOBS", "7", 1);
+    const Config config = parse({}).config;
+    ::unsetenv("LPF_MAX_QUEUED_JOBS");
+    EXPECT_EQ(config.limits.queued_jobs, 7U);
+}
+
+TEST(Config, MistakesEndTheProgramWithTwo) {
+    EXPECT_EQ(parse({"--no-such-flag"}).exit_code, 2);
+    EXPECT_EQ(parse({"--port", "70000"}).exit_code, 2);
+    EXPECT_EQ(parse({"--port", "many"}).exit_code, 2);
+    EXPECT_EQ(parse({"--log-level", "loud"}).exit_code, 2);
+    EXPECT_EQ(parse({"--config", "/nowhere/lpf.conf"}).exit_code, 2);
+}
+
+TEST(Config, HelpAndVersionEndTheProgramWithZero) {
+    EXPECT_EQ(parse({"--help"}).exit_code, 0);
+    EXPECT_EQ(parse({"--version"}).exit_code, 0);
+}
+
+TEST(Config, LimitFlagsFollowTheNamesOnTheWire) {
+    EXPECT_EQ(limit_flag("uploadBytes"), "--max-upload-bytes");
+    EXPECT_EQ(limit_flag("diskFloorBytes"), "--disk-floor-bytes");
+    EXPECT_EQ(limit_flag("resultRetentionSeconds"), "--result-retention-seconds");
+    EXPECT_EQ(limit_flag("uploadsPerSecond"), "");
+}
+
+struct ThreadCase {
+    const char* name;
+    int jobs, threads, cores, expected_jobs, expected_threads;
+};
+
+class ThreadSharing : public testing::TestWithParam<ThreadCase> {};
+
+TEST_P(ThreadSharing, NeverUsesMoreThanTheCores) {
+    const ThreadCase& c = GetParam();
+    Config config;
+    config.jobs = c.jobs;
+    config.threads = c.threads;
+    config = resolve_threads(config, c.cores);
+    EXPECT_EQ(config.jobs, c.expected_jobs);
+    EXPECT_EQ(config.threads, c.expected_threads);
+    EXPECT_LE(config.jobs * config.threads, c.cores);
+    EXPECT_GE(config.http_threads, 16);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, ThreadSharing,
+    testing::Values(ThreadCase{"OneCore", 0, 0, 1, 1, 1}, ThreadCase{"TwoCores", 0, 0, 2, 1, 2},
+                    ThreadCase{"EightCores", 0, 0, 8, 2, 4},
+                    ThreadCase{"ThreadsGiven", 0, 2, 8, 4, 2},
+                    ThreadCase{"JobsGiven", 4, 0, 8, 4, 2},
+                    ThreadCase{"TooManyAsked", 100, 100, 4, 4, 1}),
+    [](const auto& info) { return info.param.name; });
+
+TEST(Cores, ReadsTheQuotaOfControlGroupsVersion2) {
+    const TemporaryFolder folder;
+    write(folder.path() / "cpu.max", "150000 100000\n");
+    EXPECT_EQ(cgroup_cores(folder.path()), 2);
+    write(folder.path() / "cpu.max", "max 100000\n");
+    EXPECT_EQ(cgroup_cores(folder.path()), 0);
+}
+
+TEST(Cores, ReadsTheQuotaOfControlGroupsVersion1) {
+    const TemporaryFolder folder;
+    write(folder.path() / "cpu" / "cpu.cfs_quota_us", "50000\n");
+    write(folder.path() / "cpu" / "cpu.cfs_period_us", "100000\n");
+    EXPECT_EQ(cgroup_cores(folder.path()), 1);
+    write(folder.path() / "cpu" / "cpu.cfs_quota_us", "-1\n");
+    EXPECT_EQ(cgroup_cores(folder.path()), 0);
+}
+
+TEST(Cores, ThereIsAlwaysOne) { EXPECT_GE(usable_cores(), 1); }
+
+}  // namespace
+}  // namespace lpf::server
