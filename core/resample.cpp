@@ -16,7 +16,8 @@ namespace {
 /// Points of a saturated random packing at least tau apart, for each tau^2 of area.
 constexpr double kPackingDensity = 0.7;
 constexpr double kCountTolerance = 0.02;
-constexpr int kMostSearchRounds = 6;
+constexpr int kMostSearchRounds = 8;
+constexpr double kSearchMargin = 0.8;  // the spacing that is found may be so much smaller
 
 /// Candidates lie this dense at least [tau_p], so that the packing is nearly saturated.
 constexpr double kCandidateStep = 1.0;
@@ -209,6 +210,7 @@ ResampleResult resample(const Shape& shape, const ResampleParams& params,
     SpacingSearch search(by_count ? guess_spacing(fields, params.analysis, params.target_points)
                                   : params.target_spacing,
                          params.target_points);
+    Candidates candidates;
     Candidates found;
     double spacing = search.spacing();
     const int rounds = by_count ? kMostSearchRounds : 1;
@@ -216,8 +218,13 @@ ResampleResult resample(const Shape& shape, const ResampleParams& params,
         const double low = 0.5 + 0.4 * round / rounds;
         const double high = 0.5 + 0.4 * (round + 1) / rounds;
         spacing = search.spacing();
-        const Candidates candidates = propose(fields, analysis, spacing, params.support,
-                                              part_of(rest, low, (low + high) / 2));
+        // A finer lattice of places makes a denser packing. After the second try of a search the
+        // places stay, so that the number of points changes with the spacing alone.
+        if (round < 2) {
+            const double places_apart = by_count ? kSearchMargin * spacing : spacing;
+            candidates = propose(fields, analysis, places_apart, params.support,
+                                 part_of(rest, low, (low + high) / 2));
+        }
         found = find_consensus(candidates, spacing, part_of(rest, (low + high) / 2, high));
         if (by_count && search.accepts(found.size())) break;
     }

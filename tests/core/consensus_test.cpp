@@ -1,0 +1,108 @@
+#include "core/consensus.h"
+
+#include <gtest/gtest.h>
+
+#include <stop_token>
+
+#include "core/base/error.h"
+#include "core/base/random.h"
+#include "tests/core/clouds.h"
+
+namespace lpf {
+namespace {
+
+using Eigen::Vector3d;
+
+Candidates candidates_at(const Eigen::Matrix3Xd& points) {
+    Candidates candidates;
+    for (Eigen::Index i = 0; i < points.cols(); ++i) {
+        candidates.points.emplace_back(points.col(i));
+        candidates.field.push_back(static_cast<std::uint32_t>(100 + i));
+    }
+    return candidates;
+}
+
+/// The definition, word by word, without a grid.
+Candidates brute_force(const Candidates& candidates, double spacing) {
+    Candidates result;
+    const auto near = [&](const Vector3d& a, const Vector3d& b) {
+        return (a - b).norm() < spacing;
+    };
+    std::vector<bool> spent(candidates.size(), false);
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        if (spent[i]) continue;
+        Vector3d sum = Vector3d::Zero();
+        double count = 0;
+        for (const Vector3d& other : candidates.points) {
+            if (near(other, candidates.points[i])) sum += other, ++count;
+        }
+        Vector3d point = sum / count;
+        for (const Vector3d& taken : result.points) {
+            if (near(taken, point)) point = candidates.points[i];
+        }
+        result.points.push_back(point);
+        result.field.push_back(candidates.field[i]);
+        for (std::size_t k = 0; k < candidates.size(); ++k) {
+            if (near(candidates.points[k], point)) spent[k] = true;
+        }
+        spent[i] = true;
+    }
+    return result;
+}
+
+class ConsensusOf : public testing::TestWithParam<test::NamedCloud> {
+protected:
+    const Candidates candidates = candidates_at(GetParam().points);
+};
+
+TEST_P(ConsensusOf, AgreesWithBruteForce) {
+    for (const double spacing : {0.013, 0.171, 0.77, 3.1}) {
+        const Candidates found = find_consensus(candidates, spacing, {});
+        const Candidates expected = brute_force(candidates, spacing);
+        ASSERT_EQ(found.size(), expected.size()) << "spacing " << spacing;
+        EXPECT_EQ(found.field, expected.field);
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            ASSERT_LT((found.points[i] - expected.points[i]).norm(), 1e-7);
+        }
+    }
+}
+
+TEST_P(ConsensusOf, KeepsTheSpacingAndCoversEveryCandidate) {
+    const double spacing = 0.3;
+    const Candidates found = find_consensus(candidates, spacing, {});
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            ASSERT_GE((found.points[i] - found.points[j]).norm(), spacing * (1 - 1e-9));
+        }
+    }
+    for (const Vector3d& candidate : candidates.points) {
+        double nearest = 1e300;
+        for (const Vector3d& point : found.points) {
+            nearest = std::min(nearest, (point - candidate).norm());
+        }
+        // A candidate whose point moved off to a mean lies within a spacing of that mean.
+        ASSERT_LE(nearest, spacing);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Clouds, ConsensusOf, testing::ValuesIn(test::awkward_clouds()),
+                         test::CloudName());
+
+TEST(Consensus, IsTheMeanOfAHeap) {
+    const Points heap = test::random_box(40, 1, 0.0, 0.1);
+    const Candidates found = find_consensus(candidates_at(heap), 1.0, {});
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_LT((found.points[0] - heap.rowwise().mean()).norm(), 1e-12);
+    EXPECT_EQ(found.field[0], 100U) << "the first to propose it";
+}
+
+TEST(Consensus, StopsWhenCancelled) {
+    std::stop_source source;
+    source.request_stop();
+    const Execution execution{.stop = source.get_token()};
+    EXPECT_THROW((void)find_consensus(candidates_at(test::random_box(9, 1)), 0.1, execution),
+                 Error);
+}
+
+}  // namespace
+}  // namespace lpf

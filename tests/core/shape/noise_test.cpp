@@ -1,0 +1,119 @@
+#include "core/shape/noise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/base/error.h"
+#include "tests/core/clouds.h"
+#include "tests/support/metrics.h"
+#include "tests/support/shapes.h"
+
+namespace lpf {
+namespace {
+
+TEST(Measure, KnowsTheExtentAndTheNumberOfPoints) {
+    const Points points = test::random_box(500, 1, 0, 2);
+    const Measurements measured = measure(points, {});
+    EXPECT_EQ(measured.points, 500U);
+    EXPECT_NEAR(measured.diagonal, test::diagonal_of(points), 1e-12);
+}
+
+TEST(Measure, MeanSpacingAgreesWithBruteForce) {
+    const Points points = test::make_sphere({.points = 2000}).points;
+    EXPECT_NEAR(measure(points, {}).mean_spacing, test::nearest_neighbour_stats(points).mean, 1e-9);
+}
+
+TEST(Measure, MeanSpacingOfASampleIsAboutThatOfAll) {
+    const Points points = test::make_plane({.points = 30000}).points;
+    const double exact = test::nearest_neighbour_stats(points).mean;
+    EXPECT_NEAR(measure(points, {}).mean_spacing, exact, 0.05 * exact);
+}
+
+TEST(Measure, DuplicatesDoNotCountAsNeighbours) {
+    const Points points = test::make_plane({.points = 1000}).points;
+    const double once = measure(points, {}).mean_spacing;
+    EXPECT_NEAR(measure(points.replicate(1, 3), {}).mean_spacing, once, 1e-9);
+}
+
+TEST(Measure, DensityRadiusHoldsAbout150Points) {
+    const Points points = test::make_plane({.points = 10000}).points;
+    const double radius = measure(points, {}).density_radius;
+    // Away from borders a disk of the radius holds density x area points.
+    EXPECT_NEAR(10000 / 4.0 * 3.14159 * radius * radius, 150, 15);
+}
+
+class NoiseOf : public testing::TestWithParam<double> {};
+
+TEST_P(NoiseOf, APlaneIsMeasured) {
+    const double sigma = GetParam();
+    const Points points = test::make_plane({.points = 20000, .noise = sigma}).points;
+    // The ball cuts the tails of the noise off a little.
+    EXPECT_NEAR(measure(points, {}).noise, sigma, 0.15 * sigma);
+}
+
+TEST_P(NoiseOf, ASphereIsMeasured) {
+    const double sigma = GetParam();
+    const Points points = test::make_sphere({.points = 40000, .noise = sigma}).points;
+    // The curvature of the ball adds a little.
+    EXPECT_NEAR(measure(points, {}).noise, sigma, 0.25 * sigma);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sigmas, NoiseOf, testing::Values(0.01, 0.03, 0.06), [](const auto& test) {
+    return "Thousandths" + std::to_string(std::lround(1000 * test.param));
+});
+
+TEST(Measure, AnExactPlaneHasNoNoise) {
+    EXPECT_LT(measure(test::make_plane({.points = 3000}).points, {}).noise, 1e-6);
+}
+
+TEST(Measure, ScalesWithTheShape) {
+    const Points points = test::make_sphere({.points = 2000, .noise = 0.02}).points;
+    const Measurements once = measure(points, {});
+    const Measurements scaled = measure(1024 * points, {});
+    EXPECT_NEAR(scaled.noise, 1024 * once.noise, 1e-3 * scaled.noise);
+    EXPECT_NEAR(scaled.mean_spacing, 1024 * once.mean_spacing, 1e-6 * scaled.mean_spacing);
+    EXPECT_NEAR(scaled.density_radius, 1024 * once.density_radius, 1e-6 * scaled.density_radius);
+}
+
+TEST(Measure, SurvivesMapCoordinates) {
+    const Points points = test::make_sphere({.points = 2000, .noise = 0.02}).points;
+    const Measurements near = measure(points, {});
+    const Measurements far = measure(points.colwise() + Eigen::Vector3d(1e7, -2e7, 1e7), {});
+    EXPECT_NEAR(far.noise, near.noise, 1e-3 * near.noise);
+    EXPECT_NEAR(far.mean_spacing, near.mean_spacing, 1e-4 * near.mean_spacing);
+}
+
+TEST(Measure, DoesNotDependOnTheNumberOfThreads) {
+    const Points points = test::make_cube({.points = 5000, .noise = 0.02}).points;
+    const Measurements one = measure(points, {.threads = 1});
+    const Measurements many = measure(points, {.threads = 5});
+    EXPECT_EQ(one.noise, many.noise);
+    EXPECT_EQ(one.mean_spacing, many.mean_spacing);
+    EXPECT_EQ(one.density_radius, many.density_radius);
+}
+
+class MeasureOn : public testing::TestWithParam<test::NamedCloud> {};
+
+TEST_P(MeasureOn, IsFiniteAndPositiveOrAnError) {
+    const Points& points = GetParam().points;
+    if (points.cols() < 3 || GetParam().name == "AllEqual") {
+        EXPECT_THROW((void)measure(points, {}), Error);
+        return;
+    }
+    const Measurements measured = measure(points, {});
+    EXPECT_GT(measured.diagonal, 0);
+    EXPECT_GT(measured.mean_spacing, 0);
+    EXPECT_GT(measured.density_radius, 0);
+    EXPECT_GE(measured.noise, 0);
+    EXPECT_TRUE(std::isfinite(measured.diagonal + measured.mean_spacing + measured.density_radius +
+                              measured.noise));
+    EXPECT_LE(measured.density_radius, measured.diagonal * (1 + 1e-9));
+}
+
+INSTANTIATE_TEST_SUITE_P(Clouds, MeasureOn, testing::ValuesIn(test::awkward_clouds()),
+                         test::CloudName());
+
+}  // namespace
+}  // namespace lpf
