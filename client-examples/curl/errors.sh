@@ -26,4 +26,4 @@ show 'A PLY file that promises more points than it has' \
     --data-binary "$(printf 'ply\nformat ascii 1.0\nelement vertex 9\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0')" \
     "$LPF_URL/v1/processes/denoise/execution"
 
-show 'A job that never was' "$LPF_URL/v1/jobs/00000000-0000-7000-8000-000000000000"
+show 'A job that never was' "$LPF_URL/v1/jobs/no-such-job"

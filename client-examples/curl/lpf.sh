@@ -1,4 +1,5 @@
-# What the examples share. Needs sh, curl, grep and sed; no jq.
+# What the examples share. Needs sh, curl, grep and sed; no jq. Its variables begin with lpf_, because
+# functions of sh have none of their own.
 # shellcheck shell=sh
 
 # Where the service is.
@@ -18,25 +19,25 @@ job_status() {
 
 # submit PATH-AND-QUERY FILE: uploads a file as a job, prints the job's ID; says why if it cannot.
 submit() {
-    answer=$(curl -sS --fail-with-body --data-binary "@$2" "$LPF_URL$1") || {
-        printf '%s\n' "$answer" | json_value detail >&2
+    lpf_answer=$(curl -sS --fail-with-body --data-binary "@$2" "$LPF_URL$1") || {
+        printf '%s\n' "$lpf_answer" | json_value detail >&2
         return 1
     }
-    printf '%s\n' "$answer" | json_value jobID
+    printf '%s\n' "$lpf_answer" | json_value jobID
 }
 
 # wait_for JOB: returns once the job is successful; otherwise says why not, and fails.
 # "Prefer: wait" lets the service hold the answer back until the job ends, or the seconds are over.
 wait_for() {
     while true; do
-        job=$(curl -sS --fail-with-body -H 'Prefer: wait=20' "$LPF_URL/v1/jobs/$1") || return 1
-        case $(printf '%s' "$job" | job_status) in
+        lpf_job=$(curl -sS --fail-with-body -H 'Prefer: wait=20' "$LPF_URL/v1/jobs/$1") || return 1
+        case $(printf '%s' "$lpf_job" | job_status) in
             successful) return 0 ;;
             failed | dismissed)
-                printf '%s\n' "$job" | json_value detail >&2
+                printf '%s\n' "$lpf_job" | json_value detail >&2
                 return 1 ;;
         esac
-        echo "$(printf '%s' "$job" | json_value progress) % done" >&2
+        echo "$(printf '%s' "$lpf_job" | json_value progress) % done" >&2
         sleep 1  # also when the service answers at once
     done
 }
