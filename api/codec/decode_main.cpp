@@ -57,7 +57,8 @@ void limit_this_process(const Arguments& arguments) {
     limit(RLIMIT_CORE, 0);
     limit(RLIMIT_CPU, arguments.limits.helper_cpu_seconds);
     alarm(arguments.limits.helper_wall_seconds);
-#ifndef __SANITIZE_ADDRESS__  // which reserves terabytes of address space for itself
+    // Sanitizers reserve terabytes of address space for themselves.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     limit(RLIMIT_AS, arguments.memory_bytes);
 #endif
 }

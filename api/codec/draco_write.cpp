@@ -67,6 +67,7 @@ public:
 
     std::string write() {
         geometry_.set_num_points(points_);
+        check_rows();
         add_text();
         add_positions();
         add_columns();
@@ -78,6 +79,7 @@ public:
 private:
     void add_text();
     void add_positions();
+    void check_rows() const;
     void add_columns();
     void add_group(draco::GeometryAttribute::Type type, const Columns& columns);
     void add_generic(const Attribute& column);
@@ -188,6 +190,14 @@ Columns DracoWriter::group_of(const std::array<std::string_view, N>& names,
     return usable ? group : Columns{};
 }
 
+void DracoWriter::check_rows() const {
+    for (const Attribute& column : document_.shape.cloud.attributes) {
+        if (column.rows() == points_) continue;
+        fail(ErrorCode::Internal, "attribute ", quoted(column.name), " has ", column.rows(),
+             " rows, but there are ", points_, " points");
+    }
+}
+
 void DracoWriter::add_columns() {
     const Columns normal = group_of(kNormalColumns, 3);
     const Columns color = group_of(kColorColumns, 3);
@@ -225,10 +235,6 @@ void DracoWriter::add_generic(const Attribute& column) {
         lose("attribute-dropped", message_of("attribute ", quoted(column.name),
                                              " is a list a point, which Draco cannot hold"));
         return;
-    }
-    if (column.rows() != points_) {
-        fail(ErrorCode::Internal, "attribute ", quoted(column.name), " has ", column.rows(),
-             " rows, but there are ", points_, " points");
     }
     const bool widen = too_wide_for_draco(column);
     const std::optional<Attribute> wide = widen ? std::optional(widened(column)) : std::nullopt;

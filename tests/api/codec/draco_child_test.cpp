@@ -63,8 +63,9 @@ TEST(DecodeHelper, DecodesFromSeveralThreadsAtOnce) {
 TEST(DecodeHelper, LeavesNoDescriptorOpen) {
     const auto open_files = [] {
         std::size_t n = 0;
-        for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
-            n += entry.exists() || true ? 1 : 0;
+        for ([[maybe_unused]] const auto& entry :
+             std::filesystem::directory_iterator("/proc/self/fd")) {
+            ++n;
         }
         return n;
     };
@@ -126,7 +127,7 @@ TEST(DecodeHelper, MissingProgramIsAnInternalError) {
     EXPECT_EQ(error->code(), ErrorCode::Internal);
 }
 
-#ifndef __SANITIZE_ADDRESS__
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST(DecodeHelper, KeepsToItsMemory) {
     DecodeLimits limits;
     limits.helper_memory_bytes = 8 << 20;
