@@ -60,7 +60,7 @@ stop_server() {
     kill -KILL "$pid" 2>/dev/null || true
     wait "$pid" 2>/dev/null || true
     rm -rf "$out/data"
-    echo "The server has stopped."
+    echo "The server has stopped." >&2
 }
 
 # submit PROCESS FILE -> job ID
@@ -114,7 +114,7 @@ print_errors() {
         before=$(json_value "$name" <"$out/error-before.json")
         after=$(json_value "$name" <"$out/error-after.json")
         awk -v name="$name" -v before="$before" -v after="$after" 'BEGIN {
-            printf "error (%-4s)  before %.4f   after %.4f", name, before, after
+            printf "error %-5s before %.4f   after %.4f", name, before, after
             if (after > 0) printf "   divided by %.1f", before / after
             print "" }'
     done
@@ -128,7 +128,7 @@ print_displacement() {
     part=$(tr -d '\n' <"$1" | grep -oE '"displacement" *: *\{[^}]*\}') ||
         fail "the report $1 says nothing of displacements"
     for name in rms mean p50 p90 p99 max; do
-        printf 'moved (%-4s)  %s\n' "$name" "$(json_value "$name" <<<"$part")"
+        printf 'moved %-5s %s\n' "$name" "$(json_value "$name" <<<"$part")"
     done
     echo "(in the units of the file)"
 }
