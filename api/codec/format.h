@@ -52,8 +52,9 @@ struct EncodeOptions {
 [[nodiscard]] std::string encode(const Document& document, const EncodeOptions& options,
                                  std::vector<Warning>& lost);
 
-/// "application/ply" for all PLY kinds and "application/vnd.draco": no type is registered for either
-/// format, so these are names of this project. Uploads are told by content, never by their type.
+/// "application/ply" for all PLY kinds and "application/vnd.draco": no type is registered for
+/// either format, so these are names of this project. Uploads are told by content, never by their
+/// type.
 [[nodiscard]] std::string_view media_type(FileFormat format);
 
 /// File name ending without its dot: "ply" or "drc".
