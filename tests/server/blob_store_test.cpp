@@ -92,11 +92,12 @@ TEST_P(BlobStoreConformance, RefusesNamesThatAreNoDigests) {
     EXPECT_THROW((void)store_->size("../../etc/passwd"), Error);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, BlobStoreConformance,
-    testing::Values(Maker{"Files",
-                          [](const auto& path) { return std::make_unique<FileBlobStore>(path); }}),
-    [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, BlobStoreConformance,
+                         testing::Values(Maker{"Files",
+                                               [](const auto& path) {
+                                                   return std::make_unique<FileBlobStore>(path);
+                                               }}),
+                         [](const auto& info) { return info.param.name; });
 
 TEST(FileBlobStore, PutsBlobsIntoFoldersByTheirFirstByte) {
     const TemporaryFolder folder;

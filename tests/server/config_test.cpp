@@ -102,14 +102,14 @@ TEST_P(ThreadSharing, NeverUsesMoreThanTheCores) {
     EXPECT_GE(config.http_threads, 16);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    All, ThreadSharing,
-    testing::Values(ThreadCase{"OneCore", 0, 0, 1, 1, 1}, ThreadCase{"TwoCores", 0, 0, 2, 1, 2},
-                    ThreadCase{"EightCores", 0, 0, 8, 2, 4},
-                    ThreadCase{"ThreadsGiven", 0, 2, 8, 4, 2},
-                    ThreadCase{"JobsGiven", 4, 0, 8, 4, 2},
-                    ThreadCase{"TooManyAsked", 100, 100, 4, 4, 1}),
-    [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, ThreadSharing,
+                         testing::Values(ThreadCase{"OneCore", 0, 0, 1, 1, 1},
+                                         ThreadCase{"TwoCores", 0, 0, 2, 1, 2},
+                                         ThreadCase{"EightCores", 0, 0, 8, 2, 4},
+                                         ThreadCase{"ThreadsGiven", 0, 2, 8, 4, 2},
+                                         ThreadCase{"JobsGiven", 4, 0, 8, 4, 2},
+                                         ThreadCase{"TooManyAsked", 100, 100, 4, 4, 1}),
+                         [](const auto& info) { return info.param.name; });
 
 TEST(Cores, ReadsTheQuotaOfControlGroupsVersion2) {
     const TemporaryFolder folder;

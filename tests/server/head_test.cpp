@@ -31,9 +31,7 @@ TEST(Head, AcceptsTheAbsoluteFormOfATarget) {
               "/v1/info");
 }
 
-TEST(Head, HeadOfOldProtocolNeedsNoHost) {
-    EXPECT_EQ(status_of("GET / HTTP/1.0\r\n\r\n"), 200);
-}
+TEST(Head, HeadOfOldProtocolNeedsNoHost) { EXPECT_EQ(status_of("GET / HTTP/1.0\r\n\r\n"), 200); }
 
 struct BadHead {
     const char* name;
@@ -53,32 +51,32 @@ std::string post(const std::string& fields) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, RefusedHead,
-    testing::Values(
-        BadHead{"LengthIsAWord", post("Content-Length: abc\r\n"), 400},
-        BadHead{"LengthIsNegative", post("Content-Length: -1\r\n"), 400},
-        BadHead{"LengthHasASign", post("Content-Length: +5\r\n"), 400},
-        BadHead{"LengthOverflows", post("Content-Length: 99999999999999999999\r\n"), 413},
-        BadHead{"LengthOverTheLimit", post("Content-Length: 536870913\r\n"), 413},
-        BadHead{"LengthTwice", post("Content-Length: 1\r\nContent-Length: 2\r\n"), 400},
-        BadHead{"LengthAndChunked",
-                post("Content-Length: 1\r\nTransfer-Encoding: chunked\r\n"), 400},
-        BadHead{"UnknownTransferCoding", post("Transfer-Encoding: gzip\r\n"), 400},
-        BadHead{"NoLength", post(""), 411},
-        BadHead{"FieldWithoutColon", post("nonsense\r\n"), 400},
-        BadHead{"BlankBeforeColon", post("Content-Length : 1\r\n"), 400},
-        BadHead{"FoldedField", post("A: b\r\n c\r\nContent-Length: 1\r\n"), 400},
-        BadHead{"ControlCharacter", post("A: b\x01\r\nContent-Length: 1\r\n"), 400},
-        BadHead{"NoHost", "GET / HTTP/1.1\r\n\r\n", 400},
-        BadHead{"TwoHosts", "GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n", 400},
-        BadHead{"UnknownMethod", "BREW / HTTP/1.1\r\nHost: h\r\n\r\n", 405},
-        BadHead{"UnknownVersion", "GET / HTTP/3.0\r\nHost: h\r\n\r\n", 400},
-        BadHead{"BlankInTarget", "GET /a b HTTP/1.1\r\nHost: h\r\n\r\n", 400},
-        BadHead{"RelativeTarget", "GET a HTTP/1.1\r\nHost: h\r\n\r\n", 400},
-        BadHead{"BrokenEscape", "GET /%4 HTTP/1.1\r\nHost: h\r\n\r\n", 400},
-        BadHead{"EncodedNul", "GET /%00 HTTP/1.1\r\nHost: h\r\n\r\n", 400},
-        BadHead{"LongTarget",
-                "GET /" + std::string(9000, 'a') + " HTTP/1.1\r\nHost: h\r\n\r\n", 414},
-        BadHead{"HugeField", post("A: " + std::string(40000, 'a') + "\r\n"), 431}),
+    testing::Values(BadHead{"LengthIsAWord", post("Content-Length: abc\r\n"), 400},
+                    BadHead{"LengthIsNegative", post("Content-Length: -1\r\n"), 400},
+                    BadHead{"LengthHasASign", post("Content-Length: +5\r\n"), 400},
+                    BadHead{"LengthOverflows", post("Content-Length: 99999999999999999999\r\n"),
+                            413},
+                    BadHead{"LengthOverTheLimit", post("Content-Length: 536870913\r\n"), 413},
+                    BadHead{"LengthTwice", post("Content-Length: 1\r\nContent-Length: 2\r\n"), 400},
+                    BadHead{"LengthAndChunked",
+                            post("Content-Length: 1\r\nTransfer-Encoding: chunked\r\n"), 400},
+                    BadHead{"UnknownTransferCoding", post("Transfer-Encoding: gzip\r\n"), 400},
+                    BadHead{"NoLength", post(""), 411},
+                    BadHead{"FieldWithoutColon", post("nonsense\r\n"), 400},
+                    BadHead{"BlankBeforeColon", post("Content-Length : 1\r\n"), 400},
+                    BadHead{"FoldedField", post("A: b\r\n c\r\nContent-Length: 1\r\n"), 400},
+                    BadHead{"ControlCharacter", post("A: b\x01\r\nContent-Length: 1\r\n"), 400},
+                    BadHead{"NoHost", "GET / HTTP/1.1\r\n\r\n", 400},
+                    BadHead{"TwoHosts", "GET / HTTP/1.1\r\nHost: a\r\nHost: b\r\n\r\n", 400},
+                    BadHead{"UnknownMethod", "BREW / HTTP/1.1\r\nHost: h\r\n\r\n", 405},
+                    BadHead{"UnknownVersion", "GET / HTTP/3.0\r\nHost: h\r\n\r\n", 400},
+                    BadHead{"BlankInTarget", "GET /a b HTTP/1.1\r\nHost: h\r\n\r\n", 400},
+                    BadHead{"RelativeTarget", "GET a HTTP/1.1\r\nHost: h\r\n\r\n", 400},
+                    BadHead{"BrokenEscape", "GET /%4 HTTP/1.1\r\nHost: h\r\n\r\n", 400},
+                    BadHead{"EncodedNul", "GET /%00 HTTP/1.1\r\nHost: h\r\n\r\n", 400},
+                    BadHead{"LongTarget",
+                            "GET /" + std::string(9000, 'a') + " HTTP/1.1\r\nHost: h\r\n\r\n", 414},
+                    BadHead{"HugeField", post("A: " + std::string(40000, 'a') + "\r\n"), 431}),
     [](const auto& info) { return info.param.name; });
 
 TEST(Head, TooManyFieldsAreRefused) {
