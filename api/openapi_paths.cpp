@@ -13,6 +13,7 @@ constexpr std::string_view kAdminServer = "http://127.0.0.1:8081";
 
 Json document_paths() {
     const Json openapi = {{"type", "object"}, {"description", "An OpenAPI 3.1 document."}};
+    const Json content = {{"application/vnd.oai.openapi+json", {{"schema", openapi}}}};
     Json paths;
     paths["/v1"]["get"] =
         Operation("getLandingPage", "Service", "Landing page")
@@ -23,7 +24,7 @@ Json document_paths() {
             .answers(200, "What the service conforms to.", json_content(component("Conformance")))
             .json();
     paths["/v1/openapi.json"]["get"] = Operation("getOpenApi", "Service", "This document")
-                                           .answers(200, "The document.", json_content(openapi))
+                                           .answers(200, "The document.", content)
                                            .json();
     paths["/v1/info"]["get"] =
         Operation("getInfo", "Service", "Version, limits, formats, queue and retention")
@@ -49,12 +50,15 @@ Json process_paths() {
 }
 
 Json upload_operation() {
+    Json content = file_content(
+        {"application/octet-stream", "application/ply", "application/vnd.draco", "*/*"});
+    const Json file = {{"type", "string"}, {"contentMediaType", "application/octet-stream"}};
+    content["multipart/form-data"] = {{"schema", object("A form.", {{"file", file}})}};
     return Operation(
                "uploadShape", "Shapes", "Upload a shape",
                "The body is the file itself, PLY or Draco; the content decides, not the media "
                "type.")
-        .body("The file.", file_content({"application/octet-stream", "application/ply",
-                                         "application/vnd.draco", "*/*"}))
+        .body("The file.", content)
         .answers(201, "Stored.", json_content(component("Shape")), {"Location"})
         .answers(200, "The same bytes were stored already.", json_content(component("Shape")),
                  {"Location"})
@@ -98,7 +102,10 @@ Json dictionary_paths() {
     Json paths;
     paths["/v1/dictionaries"]["get"] =
         Operation("listDictionaries", "Dictionaries", "Dictionaries that jobs have learned")
-            .answers(200, "All dictionaries.", json_content(component("DictionaryList")))
+            .parameter("limit")
+            .parameter("cursor")
+            .answers(200, "A page of dictionaries.", json_content(component("DictionaryList")))
+            .fails({P::InvalidParameter})
             .json();
     paths["/v1/dictionaries/{dictionaryID}"]["get"] =
         Operation("getDictionary", "Dictionaries", "Describe a dictionary")
@@ -113,30 +120,51 @@ Json dictionary_paths() {
                   "JSON with everything, or the atoms as a NumPy file: float32, (d, M, 3).")
             .parameter("dictionaryID")
             .parameter("dictionaryFormat")
-            .answers(200, "The dictionary.", content, {"Content-Disposition"})
-            .fails({P::DictionaryNotFound, P::InvalidParameter, P::NotAcceptable})
+            .parameter("range")
+            .parameter("ifNoneMatch")
+            .answers(200, "The dictionary.", content,
+                     {"ETag", "Accept-Ranges", "Content-Disposition"})
+            .answers(206, "A part of it.", content, {"ETag", "Content-Range"})
+            .answers(304, "It has not changed.", {}, {"ETag"})
+            .fails({P::DictionaryNotFound, P::InvalidParameter, P::RangeNotSatisfiable})
             .json();
     return paths;
 }
 
-Json probe(std::string_view id, std::string_view summary, std::string_view media_type) {
-    const Json content = {{std::string(media_type), {{"schema", {{"type", "string"}}}}}};
+/// A question to the running process that needs no key. `refusal` is its 503, if it has one.
+Json probe(std::string_view id, std::string_view summary, const Json& content,
+           const Json& refusal = {}) {
     Json operation =
         Operation(id, "Operation", summary).open_to_all().answers(200, "Yes.", content).json();
-    operation["responses"]["503"]["description"] = "No.";
+    if (!refusal.is_null()) {
+        operation["responses"]["503"] = {{"description", "Not now."}, {"content", refusal}};
+    }
     return operation;
+}
+
+Json text_content(std::string_view media_type) {
+    return {{std::string(media_type), {{"schema", {{"type", "string"}}}}}};
 }
 
 Json operation_paths() {
     const Json admin = Json::array(
         {{{"url", kAdminServer}, {"description", "The admin listener, where it is by default."}}});
+    const Json health = object("", {{"status", one_of("", {"ok"})}, {"version", text("")}});
+    const Json ready = object("", {{"status", one_of("", {"ready"})}});
+    const Json not_ready =
+        object("", {{"status", one_of("", {"not-ready"})}, {"reason", text("Why not.")}});
     Json paths;
-    paths["/healthz"]["get"] = probe("getHealth", "Is the process alive?", "application/json");
-    paths["/readyz"]["get"] = probe("getReadiness", "Does it take work?", "application/json");
-    paths["/metrics"]["get"] = probe("getMetrics", "Figures for Prometheus", "text/plain");
+    paths["/healthz"]["get"] = probe("getHealth", "Is the process alive?", json_content(health));
+    paths["/readyz"]["get"] =
+        probe("getReadiness", "Does it take work?", json_content(ready), json_content(not_ready));
+    paths["/metrics"]["get"] =
+        probe("getMetrics", "Figures for Prometheus", text_content("text/plain"));
     paths["/readyz"]["servers"] = admin;
     paths["/metrics"]["servers"] = admin;
-    paths["/"]["get"] = probe("getWebPage", "The web page", "text/html");
+    paths["/"]["get"] = probe("getWebPage", "The web page", text_content("text/html"));
+    paths["/"]["get"]["responses"]["404"] = {
+        {"description", "The server was started without a web page."},
+        {"content", {{std::string(kProblemMediaType), {{"schema", component("Problem")}}}}}};
     return paths;
 }
 
