@@ -50,7 +50,7 @@ Json list_parameters(const Limits& limits) {
                                     openapi::component("Status"))},
             {"jobProcess", parameter("processID", "query", "Only jobs of this process.",
                                      openapi::one_of("", processes))},
-            {"limit", parameter("limit", "query", "Jobs on a page.", limit)},
+            {"limit", parameter("limit", "query", "Items on a page.", limit)},
             {"cursor", parameter("cursor", "query", "From the link `next` of the page before.",
                                  openapi::text(""))}};
 }
@@ -113,6 +113,7 @@ Json tags() {
 
 nlohmann::json openapi_document(const Limits& limits, std::string_view version,
                                 std::string_view server_url) {
+    if (server_url.size() > 1 && server_url.ends_with('/')) server_url.remove_suffix(1);
     Json schemas = openapi::service_schemas(limits);
     schemas.update(openapi::result_schemas());
     const Json key = {{"type", "http"},

@@ -131,7 +131,7 @@ Json job_paths() {
             .parameter("preferWait")
             .answers(200, "Its state. Retry-After while it is not finished.",
                      json_content(component("StatusInfo"), status_example(Task::Denoise)),
-                     {"Retry-After"})
+                     {"Retry-After", "Preference-Applied"})
             .fails({P::JobNotFound, P::JobDismissed, P::JobExpired})
             .json();
     paths["/v1/jobs/{jobID}"]["delete"] =

@@ -150,6 +150,11 @@ TEST(OpenApi, ExecutionTakesEveryInputOfItsProcess) {
     }
 }
 
+TEST(OpenApi, ServerAddressEndsInNoSlashUnlessItIsTheRoot) {
+    EXPECT_EQ(openapi_document(Limits{}, "1", "/")["servers"][0]["url"], "/");
+    EXPECT_EQ(openapi_document(Limits{}, "1", "https://h/")["servers"][0]["url"], "https://h");
+}
+
 TEST(OpenApi, ServerAndVersionAreThoseGiven) {
     EXPECT_EQ(document()["openapi"], "3.1.0");
     EXPECT_EQ(document()["info"]["version"], "1.2.3");
