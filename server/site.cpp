@@ -1,6 +1,7 @@
 #include "server/site.h"
 
 #include "server/answer.h"
+#include "server/ids.h"
 
 namespace lpf::server {
 
@@ -9,20 +10,21 @@ Site::Site(Services& services, Router router, http::ListenerOptions options)
       router_(std::move(router)),
       listener_(
           std::move(options), [this](http::Request& request) { return answer(request); },
-          [this](const Problem& problem, const std::string& id) { return refuse(problem, id); }) {}
+          [this](const Problem& problem) { return refuse(problem); }) {}
 
 http::Response Site::answer(http::Request& request) {
     const auto start = Clock::now();
+    if (request.id.empty()) request.id = new_id();
     http::Response response = router_.handle(request, [&](const std::string& text) {
         services_.log.error("request-failed", {{"request", request.id}, {"error", text}});
     });
     return finish(std::move(response), request, seconds_since(start));
 }
 
-http::Response Site::refuse(const Problem& problem, const std::string& request_id) {
+http::Response Site::refuse(const Problem& problem) {
     http::Request request;
     request.method = "-";
-    request.id = request_id;
+    request.id = new_id();
     return finish(problem_response(problem, request), request, 0.0);
 }
 

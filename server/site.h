@@ -17,7 +17,7 @@ public:
 
 private:
     [[nodiscard]] http::Response answer(http::Request& request);
-    [[nodiscard]] http::Response refuse(const Problem& problem, const std::string& request_id);
+    [[nodiscard]] http::Response refuse(const Problem& problem);
     [[nodiscard]] http::Response finish(http::Response response, const http::Request& request,
                                         double seconds);
 

@@ -12,7 +12,6 @@
 #include "core/base/error.h"
 #include "server/http/connection.h"
 #include "server/http/task_pool.h"
-#include "server/ids.h"
 
 namespace lpf::http {
 namespace {
@@ -45,7 +44,7 @@ void fill(const Response& response, httplib::Response& out) {
     out.status = response.status;
 }
 
-/// The id that the client gave, if it is harmless in a log, else a new one.
+/// The id that the client gave, if it is harmless in a log, else none.
 std::string request_id(const Head& head) {
     for (const auto& [name, value] : head.headers) {
         const bool plain = !value.empty() && value.size() <= 64 &&
@@ -54,7 +53,7 @@ std::string request_id(const Head& head) {
                                "ABCDEFGHIJKLMNOPQRSTUVWXYZ-_.") == std::string::npos;
         if (name == "x-request-id" && plain) return value;
     }
-    return server::new_id();
+    return {};
 }
 
 Request make_request(const Head& head) {
@@ -154,7 +153,7 @@ private:
         try {
             serve(connection);
         } catch (const ProblemException& refusal) {
-            connection.send(refuse_(refusal.problem(), server::new_id()));
+            connection.send(refuse_(refusal.problem()));
             if (!TaskPool::refusing()) connection.linger();  // never holds the accepting thread
         } catch (...) {                                      // nothing may end the pool's thread
         }

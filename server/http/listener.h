@@ -25,7 +25,7 @@ struct ListenerOptions {
 /// Answers a request; must not throw.
 using Handler = std::function<Response(Request&)>;
 /// Makes the answer to a request that never reached a handler; must not throw.
-using RefusalHandler = std::function<Response(const Problem&, const std::string& request_id)>;
+using RefusalHandler = std::function<Response(const Problem&)>;
 
 /// A listening socket with threads of its own. One request a connection: what is left unread of a
 /// body can then never be taken for the next request. The only owner of cpp-httplib.

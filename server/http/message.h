@@ -33,7 +33,7 @@ struct Request {
     std::string path;   ///< percent-decoded, without the query
     Fields query;       ///< percent-decoded
     Fields headers;     ///< names in lower case
-    std::string id;     ///< X-Request-Id, the client's if it is well formed, else a new one
+    std::string id;     ///< X-Request-Id, the client's if it is well formed; empty otherwise
     std::string route;  ///< pattern of the route that was found, for logs and metrics
     std::vector<std::string> path_parameters;  ///< what the {} of the route matched, in order
 

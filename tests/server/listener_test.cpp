@@ -32,7 +32,7 @@ protected:
     void start() {
         listener_ = std::make_unique<Listener>(
             options_, [this](Request& request) { return handle(request); },
-            [](const Problem& problem, const std::string&) {
+            [](const Problem& problem) {
                 Response response;
                 response.status = problem.status();
                 response.content_type = "application/problem+json";
