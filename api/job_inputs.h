@@ -21,29 +21,29 @@ enum class DictionaryMode { Start, Fixed };
 
 /// What the client asked of a process. Empty = "auto". The names are those of the wire.
 struct JobInputs {
-    std::optional<double> radius;           ///< [radius_unit]
-    std::optional<RadiusUnit> radius_unit;  ///< auto: Absolute
-    std::optional<std::int64_t> pattern_points;
-    std::optional<std::int64_t> atoms;
-    std::optional<double> lambda;
-    std::optional<std::int64_t> analysis_iterations;
-    std::optional<std::int64_t> denoise_iterations;
-    std::optional<double> gamma;           ///< auto: the full step
-    std::optional<double> target_spacing;  ///< [input length]
-    std::optional<std::int64_t> target_points;
-    std::optional<double> factor;
-    std::optional<OutlierPolicy> outliers;          ///< auto: Keep
-    std::optional<DuplicatePolicy> duplicates;      ///< auto: Keep
-    std::optional<AttributePolicy> attributes;      ///< auto: Keep
-    std::optional<NormalPolicy> normals;            ///< auto: Keep
-    std::optional<std::string> dictionary;          ///< ID of a stored dictionary
-    std::optional<DictionaryMode> dictionary_mode;  ///< auto: Start
-    std::optional<ProbingKind> probing;
-    std::optional<std::int64_t> random_seed;  ///< auto: 1
-    std::optional<FileFormat> format;         ///< auto: that of the input
-    std::optional<std::int64_t>
-        quantization_bits;              ///< 0 = exact; auto: see automatic_quantization_bits
-    std::optional<double> max_seconds;  ///< auto: limits.job_seconds
+    std::optional<double> radius = {};           ///< [radius_unit]
+    std::optional<RadiusUnit> radius_unit = {};  ///< auto: Absolute
+    std::optional<std::int64_t> pattern_points = {};
+    std::optional<std::int64_t> atoms = {};
+    std::optional<double> lambda = {};
+    std::optional<std::int64_t> analysis_iterations = {};
+    std::optional<std::int64_t> denoise_iterations = {};
+    std::optional<double> gamma = {};           ///< auto: the full step
+    std::optional<double> target_spacing = {};  ///< [input length]
+    std::optional<std::int64_t> target_points = {};
+    std::optional<double> factor = {};
+    std::optional<OutlierPolicy> outliers = {};          ///< auto: Keep
+    std::optional<DuplicatePolicy> duplicates = {};      ///< auto: Keep
+    std::optional<AttributePolicy> attributes = {};      ///< auto: Keep
+    std::optional<NormalPolicy> normals = {};            ///< auto: Keep
+    std::optional<std::string> dictionary = {};          ///< ID of a stored dictionary
+    std::optional<DictionaryMode> dictionary_mode = {};  ///< auto: Start
+    std::optional<ProbingKind> probing = {};
+    std::optional<std::int64_t> random_seed = {};  ///< auto: 1
+    std::optional<FileFormat> format = {};         ///< auto: that of the input
+    std::optional<std::int64_t> quantization_bits =
+        {};                                  ///< 0 = exact; auto: see automatic_quantization_bits
+    std::optional<double> max_seconds = {};  ///< auto: limits.job_seconds
 
     bool operator==(const JobInputs&) const = default;
 };

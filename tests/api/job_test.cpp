@@ -24,7 +24,9 @@ TEST(JobStatus, NamesAreThoseOfOgc) {
 TEST(JobStatus, NothingFollowsAnEnd) {
     for (const JobStatus from : kAll) {
         for (const JobStatus to : kAll) {
-            if (is_finished(from) || from == to) EXPECT_FALSE(may_become(from, to));
+            if (is_finished(from) || from == to) {
+                EXPECT_FALSE(may_become(from, to));
+            }
         }
     }
     EXPECT_TRUE(may_become(JobStatus::Accepted, JobStatus::Running));

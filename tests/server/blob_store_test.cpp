@@ -97,7 +97,7 @@ INSTANTIATE_TEST_SUITE_P(All, BlobStoreConformance,
                                                [](const auto& path) {
                                                    return std::make_unique<FileBlobStore>(path);
                                                }}),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& tested) { return tested.param.name; });
 
 TEST(FileBlobStore, PutsBlobsIntoFoldersByTheirFirstByte) {
     const TemporaryFolder folder;

@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(All, ThreadSharing,
                                          ThreadCase{"ThreadsGiven", 0, 2, 8, 4, 2},
                                          ThreadCase{"JobsGiven", 4, 0, 8, 4, 2},
                                          ThreadCase{"TooManyAsked", 100, 100, 4, 4, 1}),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& tested) { return tested.param.name; });
 
 TEST(Cores, ReadsTheQuotaOfControlGroupsVersion2) {
     const TemporaryFolder folder;

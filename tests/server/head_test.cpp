@@ -77,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
                     BadHead{"LongTarget",
                             "GET /" + std::string(9000, 'a') + " HTTP/1.1\r\nHost: h\r\n\r\n", 414},
                     BadHead{"HugeField", post("A: " + std::string(40000, 'a') + "\r\n"), 431}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& tested) { return tested.param.name; });
 
 TEST(Head, TooManyFieldsAreRefused) {
     std::string fields = "Content-Length: 0\r\n";

@@ -318,7 +318,7 @@ INSTANTIATE_TEST_SUITE_P(All, JobStoreConformance,
                                                    return std::make_unique<SqliteJobStore>(
                                                        path / "jobs.sqlite");
                                                }}),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& tested) { return tested.param.name; });
 
 TEST(SqliteJobStore, RefusesAFileOfANewerProgram) {
     const TemporaryFolder folder;

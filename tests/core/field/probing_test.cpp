@@ -225,10 +225,10 @@ TEST_P(NoiseAware, PullsNodesBeyondABorderToItNotBeyond) {
     const Matrix3Xf half =
         points.rightCols(15000).array().max(Matrix3Xf::Constant(3, 15000, -9).array());
     Matrix3Xf kept(3, 0);
-    for (const Vector3f& p : half.colwise()) {
-        if (p.x() <= 0) continue;
+    for (Eigen::Index i = 0; i < half.cols(); ++i) {
+        if (half(0, i) <= 0) continue;
         kept.conservativeResize(3, kept.cols() + 1);
-        kept.rightCols(1) = p;
+        kept.rightCols(1) = half.col(i);
     }
     const Matrix3Xf found = probed(*probing, pattern, kept);
     EXPECT_GT(found.row(0).minCoeff(), -0.4F) << "pattern points stay far beyond the border";
