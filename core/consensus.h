@@ -1,19 +1,19 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/shape/point_cloud.h"
 
 namespace lpf {
 
 /// Points that LPFs propose for a resampling, in the order in which they are to be considered.
 struct Candidates {
-    std::vector<Eigen::Vector3d> points;  ///< [input length]
-    std::vector<std::uint32_t> field;     ///< the LPF that proposes it
+    Points points;                     ///< 3 x K [input length]
+    std::vector<std::uint32_t> field;  ///< K, the LPF that proposes each
 
-    [[nodiscard]] std::size_t size() const { return points.size(); }
+    [[nodiscard]] std::size_t size() const { return field.size(); }
 };
 
 /// A consensus of the candidates (paper Sec. 4.1, Eq. 8), found greedily in their order: the mean

@@ -13,14 +13,12 @@
 namespace lpf {
 namespace {
 
-/// Points of a saturated random packing at least tau apart, for each tau^2 of area.
-constexpr double kPackingDensity = 0.7;
 constexpr double kCountTolerance = 0.02;
 constexpr int kMostSearchRounds = 8;
-constexpr double kSearchMargin = 0.8;  // the spacing that is found may be so much smaller
 
-/// Candidates lie this dense at least [tau_p], so that the packing is nearly saturated.
-constexpr double kCandidateStep = 1.0;
+/// The places of one LPF lie this close at least [tau_p]. With all the LPFs that overlap, the
+/// packing is nearly saturated then, and dense enough for a search to end at a smaller spacing.
+constexpr double kCandidateStep = 0.9;
 constexpr int kMostSubdivisions = 16;
 
 /// Places of the plane at which an LPF proposes a point: the nodes of the pattern and, where they
@@ -103,28 +101,31 @@ Eigen::Vector3f interpolate(const Pattern& pattern, const std::vector<float>& fi
 Candidates propose(const FieldSet& fields, const AnalysisResult& analysis, double spacing,
                    double support, const Execution& execution) {
     const auto places = proposal_places(fields.pattern(), analysis.radius, spacing);
-    std::vector<std::vector<Eigen::Vector3f>> proposals(fields.size());
+    std::vector<std::vector<Eigen::Vector3d>> proposals(fields.size());
     fields.for_each_target(
         "propose", execution, [&](std::size_t j, FieldSet::Worker& worker, std::size_t) {
             analysis.dictionary.decode(analysis.codes[j], worker.decoded);
             const float reach =
                 static_cast<float>(std::max(support, spacing / 2) / fields.frames[j].radius);
             const Support supported(worker.probe.target, std::max(reach, 1e-3F));
-            proposals[j].assign(places.size(), Eigen::Vector3f::Constant(NAN));
-            for (std::size_t i = 0; i < places.size(); ++i) {
-                const Eigen::Vector3f p = interpolate(fields.pattern(), worker.decoded, places[i]);
+            for (const Eigen::Vector2f& place : places) {
+                const Eigen::Vector3f p = interpolate(fields.pattern(), worker.decoded, place);
                 if (support > 0 && !supported.covers(p.x(), p.y())) continue;
-                proposals[j][i] = p;
+                proposals[j].push_back(fields.frames[j].to_world(p));
             }
         });
-    // All centres first, then outwards: what an LPF knows best is considered first.
-    Candidates candidates;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        for (std::size_t j = 0; j < fields.size(); ++j) {
-            if (proposals[j].empty() || std::isnan(proposals[j][i].x())) continue;
-            candidates.points.push_back(fields.frames[j].to_world(proposals[j][i]));
+    // LPF by LPF, each from its centre outwards; LPFs are in spatial order, so that the consensus
+    // works on what lies together in memory.
+    std::size_t total = 0;
+    for (const auto& of_field : proposals) total += of_field.size();
+    Candidates candidates{Points(3, static_cast<Eigen::Index>(total)), {}};
+    candidates.field.reserve(total);
+    for (std::size_t j = 0; j < fields.size(); ++j) {
+        for (const Eigen::Vector3d& point : proposals[j]) {
+            candidates.points.col(static_cast<Eigen::Index>(candidates.size())) = point;
             candidates.field.push_back(static_cast<std::uint32_t>(j));
         }
+        std::vector<Eigen::Vector3d>().swap(proposals[j]);
     }
     return candidates;
 }
@@ -221,19 +222,15 @@ ResampleResult resample(const Shape& shape, const ResampleParams& params,
         // A finer lattice of places makes a denser packing. After the second try of a search the
         // places stay, so that the number of points changes with the spacing alone.
         if (round < 2) {
-            const double places_apart = by_count ? kSearchMargin * spacing : spacing;
-            candidates = propose(fields, analysis, places_apart, params.support,
+            candidates = propose(fields, analysis, spacing, params.support,
                                  part_of(rest, low, (low + high) / 2));
         }
         found = find_consensus(candidates, spacing, part_of(rest, (low + high) / 2, high));
         if (by_count && search.accepts(found.size())) break;
     }
 
-    ResampleResult result{{}, {}, std::move(found.field), spacing, std::move(analysis)};
-    result.points.resize(3, static_cast<Eigen::Index>(found.points.size()));
-    for (std::size_t i = 0; i < found.points.size(); ++i) {
-        result.points.col(static_cast<Eigen::Index>(i)) = found.points[i];
-    }
+    ResampleResult result{
+        std::move(found.points), {}, std::move(found.field), spacing, std::move(analysis)};
     result.source = nearest_sources(shape.cloud.points, result.points, part_of(rest, 0.9, 1.0));
     return result;
 }
