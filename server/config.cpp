@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdlib>
 #include <iostream>
 #include <map>
+#include <string>
+#include <vector>
 
 namespace lpf::server {
 namespace {
@@ -20,7 +23,24 @@ std::string variable_of(const std::string& flag) {
 
 template <typename Value>
 CLI::Option* add(CLI::App& app, const std::string& flag, Value& value, const std::string& help) {
-    return app.add_option(flag, value, help)->envname(variable_of(flag))->capture_default_str();
+    return app.add_option(flag, value, help)
+        ->envname(variable_of(flag))
+        ->take_last()
+        ->capture_default_str();
+}
+
+/// The command line with the environment's values in front of it, where later values replace them.
+/// The library itself would let the configuration file win over the environment.
+std::vector<std::string> with_environment(const CLI::App& app, int argc, const char* const* argv) {
+    std::vector<std::string> arguments;
+    for (const CLI::Option* option : app.get_options()) {
+        const std::string variable = option->get_envname();
+        const char* value = variable.empty() ? nullptr : std::getenv(variable.c_str());
+        if (value && *value) arguments.push_back(option->get_name() + "=" + value);
+    }
+    for (int i = 1; i < argc; ++i) arguments.emplace_back(argv[i]);
+    std::reverse(arguments.begin(), arguments.end());  // as the library wants them
+    return arguments;
 }
 
 void add_network_and_work(CLI::App& app, Config& config) {
@@ -44,6 +64,7 @@ void add_network_and_work(CLI::App& app, Config& config) {
                                                  {"error", LogLevel::Error}};
     app.add_option("--log-level", config.log_level, "Least level of the log: debug info warn error")
         ->envname("LPF_LOG_LEVEL")
+        ->take_last()
         ->transform(CLI::CheckedTransformer(levels, CLI::ignore_case));
 }
 
@@ -89,7 +110,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
     add_network_and_work(app, line.config);
     add_limits(app, line.config.limits);
     try {
-        app.parse(argc, argv);
+        app.parse(with_environment(app, argc, argv));
     } catch (const CLI::ParseError& error) {
         line.exit_code = app.exit(error, std::cout, std::cerr) == 0 ? 0 : 2;
     }

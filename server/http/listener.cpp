@@ -19,6 +19,13 @@ namespace {
 constexpr int kBacklog = 512;  // the library's own is 5: bursts would wait for seconds
 constexpr std::size_t kSlice = 256 * 1024;
 
+/// Lets a restarted server have its port at once. The library's own choice, SO_REUSEPORT, would let
+/// two servers share a port in silence.
+void reuse_address(socket_t socket) {
+    const int yes = 1;
+    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+}
+
 /// Sends a slice of a file piece by piece.
 void stream_file(const FileSlice& slice, const std::string& type, httplib::Response& out) {
     const int file = ::open(slice.path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -91,6 +98,7 @@ public:
         : options_(std::move(options)), handler_(std::move(handler)), refuse_(std::move(refuse)) {
         set_keep_alive_max_count(1);
         set_tcp_nodelay(true);
+        set_socket_options(reuse_address);
         set_payload_max_length(static_cast<size_t>(-1));  // handlers count the bytes themselves
         set_exception_handler([](const auto&, auto& response, const std::exception_ptr&) {
             response.headers.clear();  // the library would send the exception's text

@@ -50,9 +50,9 @@ MALFORMED = {
     "no_vertex": with_header("format binary_little_endian 1.0\nelement point 1\nproperty int a\n"),
     "endless_header_line": b"ply\nformat ascii 1.0\ncomment " + b"a" * 200_000,
     "nul_in_header": b"ply\0\nformat ascii 1.0\nelement vertex 0\nend_header\n",
-    "face_out_of_range": header(3, XYZ, extra="element face 1\nproperty list uchar int i\n")
+    "face_out_of_range": header(3, XYZ, extra="element face 1\nproperty list uchar int vertex_indices\n")
     + b"\0" * 36 + b"\3" + struct.pack("<3i", 0, 1, 99),
-    "list_of_2_billion": header(3, XYZ, extra="element face 1\nproperty list int int i\n")
+    "list_of_2_billion": header(3, XYZ, extra="element face 1\nproperty list int int vertex_indices\n")
     + b"\0" * 36 + struct.pack("<2i", 0x7FFFFFFF, 0),
     "only_nan": binary_ply([(float("nan"),) * 3] * 10, XYZ),
     "draco_of_2_billion_points": draco(points=2_000_000_000),
