@@ -15,9 +15,10 @@ constexpr double kPointsInDensityBall = 150.0;
 /// A radius of fewer sigma cuts the noise off; one of many more costs curves and thin parts.
 constexpr double kSigmasInRadius = 3.0;
 
-/// Without noise, a ball of this share of the density radius (about 54 points) shows the shape
-/// best.
+/// The ball of this share of the density radius (about 54 points) averages noise without losing
+/// the shape; without noise, a smaller one (about 24 points) shows it better.
 constexpr double kDensityShare = 0.6;
+constexpr double kLeastDensityShare = 0.4;
 
 /// Below this ratio of noise to radius a second outer iteration rounds more than it smooths.
 constexpr double kQuiet = 0.06;
@@ -82,11 +83,14 @@ private:
             return {0.5 * m_.density_radius,
                     "half the radius that holds about 150 vertices of the mesh"};
         }
-        const double by_density = kDensityShare * m_.density_radius;
+        const double share = kLeastDensityShare + (kDensityShare - kLeastDensityShare) *
+                                                      std::min(1.0, 2 * m_.noise / m_.mean_spacing);
+        const double by_density = share * m_.density_radius;
         const double by_noise = kSigmasInRadius * m_.noise;
         return {std::hypot(by_density, by_noise),
-                "root of the sum of squares of .6 times the radius that holds about 150 points (" +
-                    text(m_.density_radius) + ") and 3 times the noise (" + text(m_.noise) + ")"};
+                "root of the sum of squares of " + text(share) +
+                    " times the radius that holds about 150 points (" + text(m_.density_radius) +
+                    ") and 3 times the noise (" + text(m_.noise) + ")"};
     }
 
     [[nodiscard]] ProbingKind auto_probing() const {

@@ -82,6 +82,7 @@ void vote(const FieldSet& fields, const AnalysisResult& analysis, bool sharp, Ba
     const Pattern& pattern = fields.pattern();
     fields.for_each_target(
         "vote", execution, [&](std::size_t j, FieldSet::Worker& worker, std::size_t) {
+            if (fields.dimensions[j] == kTooFewPoints) return;
             analysis.dictionary.decode(analysis.codes[j], worker.decoded);
             const Frame& frame = fields.frames[j];
             const auto scale = static_cast<float>(frame.radius / analysis.radius);

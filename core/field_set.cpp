@@ -136,7 +136,6 @@ void FieldSet::for_each_target(std::string_view phase, const Execution& executio
                  [&](std::size_t begin, std::size_t end, std::size_t chunk) {
                      Worker worker = make_worker(0);
                      for (std::size_t j = begin; j < end; ++j) {
-                         if (dimensions[j] == kTooFewPoints) continue;
                          gather(j, worker.probe.target);
                          body(j, worker, chunk);
                      }

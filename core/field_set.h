@@ -36,7 +36,7 @@ public:
     void for_each_probed(std::string_view phase, const Execution& execution, int atoms,
                          const Body& body) const;
 
-    /// The same without probing: only the target area is gathered.
+    /// The same for all LPFs and without probing: only the target area is gathered.
     void for_each_target(std::string_view phase, const Execution& execution,
                          const Body& body) const;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -20,6 +21,9 @@ constexpr int kMostSearchRounds = 8;
 /// packing is nearly saturated then, and dense enough for a search to end at a smaller spacing.
 constexpr double kCandidateStep = 0.9;
 constexpr int kMostSubdivisions = 16;
+
+/// A gap of so many local spacings belongs to the shape still.
+constexpr double kSupportSpacings = 1.2;
 
 /// Places of the plane at which an LPF proposes a point: the nodes of the pattern and, where they
 /// are too far apart for the spacing, places between them. Ordered from the centre outwards.
@@ -97,37 +101,70 @@ Eigen::Vector3f interpolate(const Pattern& pattern, const std::vector<float>& fi
     return value;
 }
 
-/// Eq. 7 for every LPF: the places of its pattern, moved by its reconstructed field.
-Candidates propose(const FieldSet& fields, const AnalysisResult& analysis, double spacing,
-                   double support, const Execution& execution) {
-    const auto places = proposal_places(fields.pattern(), analysis.radius, spacing);
-    std::vector<std::vector<Eigen::Vector3d>> proposals(fields.size());
-    fields.for_each_target(
-        "propose", execution, [&](std::size_t j, FieldSet::Worker& worker, std::size_t) {
-            analysis.dictionary.decode(analysis.codes[j], worker.decoded);
-            const float reach =
-                static_cast<float>(std::max(support, spacing / 2) / fields.frames[j].radius);
-            const Support supported(worker.probe.target, std::max(reach, 1e-3F));
-            for (const Eigen::Vector2f& place : places) {
-                const Eigen::Vector3f p = interpolate(fields.pattern(), worker.decoded, place);
-                if (support > 0 && !supported.covers(p.x(), p.y())) continue;
-                proposals[j].push_back(fields.frames[j].to_world(p));
-            }
-        });
-    // LPF by LPF, each from its centre outwards; LPFs are in spatial order, so that the consensus
-    // works on what lies together in memory.
+/// How far the shape goes on between the points of one target area [radius]: at least the distance
+/// given, more where the points are sparser than elsewhere, never more than half the radius.
+float support_distance(const TargetArea& target, double support, double spacing, double radius) {
+    const double points = std::max(1.0, static_cast<double>(target.size));
+    const double local = std::min(0.5, kSupportSpacings * std::sqrt(std::numbers::pi / points));
+    return static_cast<float>(std::max({support / radius, spacing / 2 / radius, local}));
+}
+
+/// Eq. 7 for one LPF: the places of its pattern, moved by its reconstructed field. An LPF of too
+/// few points knows no field: it proposes the points themselves, so that nothing sparse is lost.
+void propose(const Frame& frame, const Pattern& pattern, const TargetArea& target,
+             const std::vector<float>& field, const std::vector<Eigen::Vector2f>& places,
+             float support, std::vector<Eigen::Vector3d>& proposals) {
+    const Support supported(target, support);
+    for (const Eigen::Vector2f& place : places) {
+        const Eigen::Vector3f p = interpolate(pattern, field, place);
+        if (supported.covers(p.x(), p.y())) proposals.push_back(frame.to_world(p));
+    }
+}
+
+void propose_points(const Frame& frame, const TargetArea& target,
+                    std::vector<Eigen::Vector3d>& proposals) {
+    for (std::size_t i = 0; i < target.size; ++i) {
+        proposals.push_back(frame.to_world({target.x[i], target.y[i], target.z[i]}));
+    }
+}
+
+/// LPF by LPF, each from its centre outwards; LPFs are in spatial order, so that the consensus
+/// works on what lies together in memory.
+Candidates collect(const std::vector<std::vector<Eigen::Vector3d>>& proposals) {
     std::size_t total = 0;
     for (const auto& of_field : proposals) total += of_field.size();
     Candidates candidates{Points(3, static_cast<Eigen::Index>(total)), {}};
     candidates.field.reserve(total);
-    for (std::size_t j = 0; j < fields.size(); ++j) {
+    for (std::size_t j = 0; j < proposals.size(); ++j) {
         for (const Eigen::Vector3d& point : proposals[j]) {
             candidates.points.col(static_cast<Eigen::Index>(candidates.size())) = point;
             candidates.field.push_back(static_cast<std::uint32_t>(j));
         }
-        std::vector<Eigen::Vector3d>().swap(proposals[j]);
     }
     return candidates;
+}
+
+Candidates propose(const FieldSet& fields, const AnalysisResult& analysis, double spacing,
+                   double support, const Execution& execution) {
+    constexpr float kEverywhere = 10.0F;
+    const auto places = proposal_places(fields.pattern(), analysis.radius, spacing);
+    std::vector<std::vector<Eigen::Vector3d>> proposals(fields.size());
+    fields.for_each_target(
+        "propose", execution, [&](std::size_t j, FieldSet::Worker& worker, std::size_t) {
+            const TargetArea& target = worker.probe.target;
+            const Frame& frame = fields.frames[j];
+            if (fields.dimensions[j] == kTooFewPoints) {
+                propose_points(frame, target, proposals[j]);
+                return;
+            }
+            analysis.dictionary.decode(analysis.codes[j], worker.decoded);
+            const float distance = support > 0
+                                       ? support_distance(target, support, spacing, frame.radius)
+                                       : kEverywhere;
+            propose(frame, fields.pattern(), target, worker.decoded, places, distance,
+                    proposals[j]);
+        });
+    return collect(proposals);
 }
 
 /// Spacing first, then count: the number of points falls with the square of the spacing on a

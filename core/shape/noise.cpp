@@ -18,9 +18,14 @@ constexpr std::size_t kNoiseSample = 1024;
 constexpr std::size_t kPointsInBall = 150;
 constexpr std::size_t kFewestForPlane = 8;
 
+/// Points of the first ball that the noise is looked for in.
+constexpr std::size_t kPointsInSmallBall = 24;
+
 /// A ball narrower than this many sigma cuts the noise off and makes it look smaller than it is.
+/// The smallest ball that is wide enough tells noise from shape: what curves at its scale is shape.
 constexpr double kSigmasInBall = 4.0;
-constexpr int kRounds = 6;
+constexpr double kGrowth = 1.2;
+constexpr int kRounds = 25;
 constexpr std::size_t kMostInBall = 3000;
 
 double median(std::vector<double>& values) {
@@ -57,7 +62,9 @@ double spread_off_plane(const Points& points, const std::vector<SpatialIndex::Ne
     mean /= count;
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
     solver.computeDirect(squares / count - mean * mean.transpose(), Eigen::EigenvaluesOnly);
-    return std::sqrt(std::max(0.0, solver.eigenvalues()[0]));
+    // Three degrees of freedom went into the plane.
+    const double unbiased = count / std::max(1.0, count - 3);
+    return std::sqrt(std::max(0.0, unbiased * solver.eigenvalues()[0]));
 }
 
 double noise_at(const Points& points, const SpatialIndex& index, double radius,
@@ -78,8 +85,10 @@ double noise_at(const Points& points, const SpatialIndex& index, double radius,
 }
 
 /// Distances to the nearest other position, and to the point that makes the ball full.
-void measure_spacing(const Points& points, const SpatialIndex& index, Measurements& result) {
+/// @returns the median radius of the smallest ball to look for noise in
+double measure_spacing(const Points& points, const SpatialIndex& index, Measurements& result) {
     std::vector<double> full;
+    std::vector<double> small;
     double sum = 0.0;
     std::size_t counted = 0;
     const std::size_t k = std::min(kPointsInBall, result.points);
@@ -90,10 +99,13 @@ void measure_spacing(const Points& points, const SpatialIndex& index, Measuremen
         if (other == neighbours.end()) continue;  // one of many duplicates
         sum += std::sqrt(other->squared_distance);
         full.push_back(std::sqrt(neighbours.back().squared_distance));
+        small.push_back(std::sqrt(
+            neighbours[std::min(kPointsInSmallBall, neighbours.size()) - 1].squared_distance));
         ++counted;
     }
     result.mean_spacing = counted ? sum / static_cast<double>(counted) : result.diagonal;
     result.density_radius = counted ? median(full) : result.diagonal;
+    return counted ? median(small) : result.diagonal;
 }
 
 }  // namespace
@@ -111,14 +123,12 @@ Measurements measure(const Points& points, const Execution& execution) {
                     "All points of the shape coincide: it has no extent.");
     }
     const SpatialIndex index(points);
-    measure_spacing(points, index, result);
-    double radius = result.density_radius;
+    double radius = measure_spacing(points, index, result);
     for (int round = 0; round < kRounds; ++round) {
         throw_if_cancelled(execution);
         result.noise = noise_at(points, index, radius, execution);
-        const double wanted = kSigmasInBall * result.noise;
-        if (wanted <= 1.05 * radius) break;
-        radius = wanted;
+        if (kSigmasInBall * result.noise <= radius || radius > result.diagonal) break;
+        radius *= kGrowth;
     }
     return result;
 }
