@@ -123,9 +123,8 @@ ResolvedParameters Runner::resolve(RunningJob& job, const Document& document,
         resolve_parameters(asked.process, document.shape, measurements, request);
     job.update([&](StatusInfo& info) {
         info.resolved_parameters = resolved_parameters(parameters.values);
-        for (const std::string& warning : parameters.warnings)
-            info.warnings.push_back({"parameters", warning});
     });
+    for (const std::string& warning : parameters.warnings) job.warn("parameters", warning);
     return parameters;
 }
 

@@ -22,6 +22,8 @@ StatusInfo RunningJob::info() const {
 
 void RunningJob::warn(std::string code, std::string detail) {
     update([&](StatusInfo& info) {
+        for (const Warning& known : info.warnings)
+            if (known.code == code && known.detail == detail) return;
         info.warnings.push_back({std::move(code), std::move(detail)});
     });
 }

@@ -40,6 +40,7 @@ public:
         info_.updated = now_millis();
     }
 
+    /// Adds a warning, unless it is there already.
     void warn(std::string code, std::string detail);
 
     /// A sink that maps a computation's progress to [low, high] percent of the job.

@@ -5,8 +5,8 @@
 #include <unistd.h>
 
 #include <condition_variable>
+#include <map>
 #include <mutex>
-#include <set>
 #include <thread>
 
 #include "core/base/error.h"
@@ -129,8 +129,10 @@ public:
         httplib::Server::stop();
         {
             std::unique_lock lock(mutex_);
+            for (const auto& [socket, busy] : open_)
+                if (!busy) ::shutdown(socket, SHUT_RD);  // it has asked for nothing yet
             if (!idle_.wait_for(lock, patience, [&] { return open_.empty(); })) {
-                for (const int socket : open_) ::shutdown(socket, SHUT_RDWR);
+                for (const auto& [socket, busy] : open_) ::shutdown(socket, SHUT_RDWR);
             }
         }
         thread_.join();
@@ -156,14 +158,14 @@ private:
     }
 
     bool process_and_close_socket(socket_t socket) override {
-        track(socket);
+        track(socket, false);
         Connection connection(socket, options_);
         try {
             serve(connection);
         } catch (const ProblemException& refusal) {
             connection.send(refuse_(refusal.problem()));
-            if (!TaskPool::refusing()) connection.linger();  // never holds the accepting thread
-        } catch (...) {                                      // nothing may end the pool's thread
+            if (!TaskPool::refusing() && !leaving_) connection.linger();
+        } catch (...) {  // nothing may end the pool's thread
         }
         untrack(socket);
         ::close(socket);
@@ -171,7 +173,7 @@ private:
     }
 
     void serve(Connection& connection) {
-        if (TaskPool::refusing()) {
+        if (TaskPool::refusing() || leaving_) {
             throw ProblemException(
                 {.problem = ProblemCode::Unavailable,
                  .detail = "Too many connections are waiting; try again in a second.",
@@ -179,6 +181,7 @@ private:
         }
         const std::string text = connection.read_head();
         if (text.empty()) return;
+        track(connection.socket(), true);
         const Head head = parse_head(text, options_.limits);
         Request request = make_request(head);
         request.abandoned = [&] { return leaving_ || connection.abandoned(); };
@@ -189,9 +192,9 @@ private:
         if (head.has_body()) connection.linger();
     }
 
-    void track(int socket) {
+    void track(int socket, bool busy) {
         const std::lock_guard lock(mutex_);
-        open_.insert(socket);
+        open_[socket] = busy;
     }
 
     void untrack(int socket) {
@@ -206,7 +209,7 @@ private:
     std::atomic<bool> leaving_ = false;
     std::mutex mutex_;
     std::condition_variable idle_;
-    std::set<int> open_;
+    std::map<int, bool> open_;  // sockets, and whether they have sent a request
     std::jthread thread_;
 
     // The library hands its own request to the handlers; ours waits here for the same thread.

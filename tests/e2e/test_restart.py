@@ -1,8 +1,10 @@
 """Whatever was acknowledged survives the end of the server, however it ends."""
 
 import os
+import random
 import signal
 import subprocess
+import threading
 import time
 
 import pytest
@@ -59,6 +61,32 @@ def test_a_job_that_ends_its_server_three_times_fails(start):
         client = Client(server.url)
     job = client.get(path).json()
     assert job["status"] == "failed" and job["exception"]["code"] == "worker-lost"
+
+
+def test_every_acknowledged_job_ends_once_whenever_the_server_is_killed(start):
+    """Kills at random moments while jobs are sent."""
+    dice = random.Random(7)
+    acknowledged = []
+    for _ in range(3):
+        server = start("--max-job-attempts", "10")
+        killer = threading.Timer(dice.uniform(0.05, 0.6), server.kill)
+        killer.start()
+        try:
+            while True:
+                shape = noisy_sphere(150, seed=dice.randrange(1000))
+                answer = requests.post(server.url + "/v1/processes/denoise/execution", data=shape,
+                                       timeout=30)
+                if answer.status_code == 201:
+                    acknowledged.append(answer.json()["jobID"])
+        except requests.RequestException:
+            killer.join()
+    client = Client(start("--max-job-attempts", "10").url)
+    assert acknowledged
+    for job_id in acknowledged:
+        job = client.finish(client.get("/v1/jobs/" + job_id).json())
+        assert job["status"] == "successful"
+        points = client.get(f"/v1/jobs/{job_id}/results/points").content
+        assert len(read_ply(points)) == 150
 
 
 def test_a_stop_ends_within_seconds_and_refuses_nothing_half(start):

@@ -64,6 +64,21 @@ def test_web_page(client):
     assert "default-src 'none'" in page.headers["Content-Security-Policy"]
 
 
+def test_web_folder(start, tmp_path):
+    folder = tmp_path / "web"
+    folder.mkdir()
+    (folder / "index.html").write_text("<!doctype html><title>Mine</title>")
+    (folder / "decoder.wasm").write_bytes(b"\0asm")
+    (tmp_path / "outside.txt").write_text("outside")
+    url = start("--web-dir", str(folder)).url
+    page = requests.get(url + "/", timeout=10)
+    assert "Mine" in page.text and "script-src 'self'" in page.headers["Content-Security-Policy"]
+    wasm = requests.get(url + "/decoder.wasm", timeout=10)
+    assert wasm.headers["Content-Type"] == "application/wasm" and wasm.content == b"\0asm"
+    for path in ("/..%2foutside.txt", "/%2e%2e/outside.txt", "/nothing.js"):
+        assert requests.get(url + path, timeout=10).status_code == 404, path
+
+
 def test_request_ids_come_back(client):
     answer = client.get("/v1/info", headers={"X-Request-Id": "my-id.7"})
     assert answer.headers["X-Request-Id"] == "my-id.7"

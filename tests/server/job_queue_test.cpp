@@ -228,6 +228,14 @@ TEST_F(JobQueueTest, ProgressNeverFalls) {
     EXPECT_DOUBLE_EQ(job.info().progress, 60);
 }
 
+TEST_F(JobQueueTest, AWarningIsGivenOnce) {
+    RunningJob job({{}, {}}, 10);
+    job.warn("a", "First.");
+    job.warn("a", "First.");
+    job.warn("a", "Second.");
+    EXPECT_EQ(job.info().warnings.size(), 2U);
+}
+
 TEST_F(JobQueueTest, AWaitEndsAtItsTimeAndWhenTheClientLeaves) {
     const auto queue = make_queue(work_forever);
     queue->start();

@@ -218,6 +218,14 @@ TEST_F(ListenerTest, AStopLetsRequestsInFlightEnd) {
     EXPECT_FALSE(RawClient(port_).connected());
 }
 
+TEST_F(ListenerTest, AStopDoesNotWaitForSilentClients) {
+    const RawClient silent(port_);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    const auto start = Clock::now();
+    listener_->stop(std::chrono::seconds(5));
+    EXPECT_LT(Clock::now() - start, std::chrono::milliseconds(800));
+}
+
 TEST_F(ListenerTest, APortThatIsTakenIsAnError) {
     options_.port = port_;
     EXPECT_THROW(Listener(options_, {}, {}).start(), Error);

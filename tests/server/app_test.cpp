@@ -1,4 +1,4 @@
-#include "server/app.h"  // before httplib.h, whose macro _res breaks Eigen
+#include "server/app.h"  // first: a macro of httplib.h would break its Eigen
 
 #include <gtest/gtest.h>
 #include <httplib.h>
@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 
 /// The whole server, in this process, on free ports.
-class RoutesTest : public testing::Test {
+class AppTest : public testing::Test {
 protected:
     void SetUp() override {
         Config config;
@@ -52,7 +52,7 @@ protected:
     std::unique_ptr<httplib::Client> client_;
 };
 
-TEST_F(RoutesTest, TheOneLinerGetsThePointsThemselves) {
+TEST_F(AppTest, TheOneLinerGetsThePointsThemselves) {
     const auto result = execute("denoise", "", square_);
     ASSERT_EQ(result->status, 200) << result->body;
     EXPECT_EQ(result->get_header_value("Content-Type"), "application/ply");
@@ -61,7 +61,7 @@ TEST_F(RoutesTest, TheOneLinerGetsThePointsThemselves) {
     EXPECT_EQ(client_->Get(result->get_header_value("Location"))->status, 200);
 }
 
-TEST_F(RoutesTest, WithoutAWaitAJobIsCreated) {
+TEST_F(AppTest, WithoutAWaitAJobIsCreated) {
     const auto result = execute("analyze", "?atoms=4", square_, "");
     ASSERT_EQ(result->status, 201) << result->body;
     const auto info = json::parse(result->body);
@@ -70,20 +70,20 @@ TEST_F(RoutesTest, WithoutAWaitAJobIsCreated) {
     EXPECT_EQ(result->get_header_value("Location"), "/v1/jobs/" + info["jobID"].get<std::string>());
 }
 
-TEST_F(RoutesTest, AMistypedInputIsRefusedAndNothingIsStored) {
+TEST_F(AppTest, AMistypedInputIsRefusedAndNothingIsStored) {
     const auto result = execute("denoise", "?raduis=1", square_);
     EXPECT_EQ(result->status, 422);
     EXPECT_EQ(json::parse(result->body)["errors"][0]["pointer"], "/inputs/raduis");
     EXPECT_TRUE(json::parse(client_->Get("/v1/jobs")->body)["jobs"].empty());
 }
 
-TEST_F(RoutesTest, ABadFileIsRefusedAtThePost) {
+TEST_F(AppTest, ABadFileIsRefusedAtThePost) {
     EXPECT_EQ(code_of(execute("denoise", "", "OFF\n1 0 0\n")), "unsupported-format");
     EXPECT_EQ(code_of(execute("denoise", "", square_.substr(0, 400))), "malformed-file");
     EXPECT_EQ(client_->Get("/healthz")->status, 200);
 }
 
-TEST_F(RoutesTest, AFormCarriesFileAndInputs) {
+TEST_F(AppTest, AFormCarriesFileAndInputs) {
     const httplib::MultipartFormDataItems items{{"file", square_, "scan.ply", ""},
                                                 {"format", "drc", "", ""}};
     const auto result =
@@ -92,7 +92,7 @@ TEST_F(RoutesTest, AFormCarriesFileAndInputs) {
     EXPECT_EQ(result->get_header_value("Content-Type"), "application/vnd.draco");
 }
 
-TEST_F(RoutesTest, AFormWithoutANameIsRefused) {
+TEST_F(AppTest, AFormWithoutANameIsRefused) {
     const std::string body =
         "--b\r\nContent-Disposition: form-data; filename*=x\r\n\r\nabc\r\n--b--\r\n";
     const auto result =
@@ -100,7 +100,7 @@ TEST_F(RoutesTest, AFormWithoutANameIsRefused) {
     EXPECT_EQ(result->status, 400);
 }
 
-TEST_F(RoutesTest, AnUploadedShapeIsUsedByItsId) {
+TEST_F(AppTest, AnUploadedShapeIsUsedByItsId) {
     const auto upload = client_->Post("/v1/shapes", square_, "application/ply");
     ASSERT_EQ(upload->status, 201) << upload->body;
     const auto shape = json::parse(upload->body);
@@ -118,7 +118,7 @@ TEST_F(RoutesTest, AnUploadedShapeIsUsedByItsId) {
     EXPECT_EQ(client_->Get(path)->status, 404);
 }
 
-TEST_F(RoutesTest, ResultsAreConvertedOnRequest) {
+TEST_F(AppTest, ResultsAreConvertedOnRequest) {
     const auto job = execute("denoise", "", square_);
     const std::string points = job->get_header_value("Location") + "/results/points";
     EXPECT_TRUE(client_->Get(points + "?format=drc")->body.starts_with("DRACO"));
@@ -130,7 +130,7 @@ TEST_F(RoutesTest, ResultsAreConvertedOnRequest) {
     EXPECT_EQ(client_->Get(points, {{"Accept", "image/png"}})->status, 406);
 }
 
-TEST_F(RoutesTest, ResultsHaveTagsRangesAndHeads) {
+TEST_F(AppTest, ResultsHaveTagsRangesAndHeads) {
     const auto job = execute("denoise", "", square_);
     const std::string points = job->get_header_value("Location") + "/results/points";
     const auto whole = client_->Get(points);
@@ -146,7 +146,7 @@ TEST_F(RoutesTest, ResultsHaveTagsRangesAndHeads) {
     EXPECT_TRUE(head->body.empty());
 }
 
-TEST_F(RoutesTest, ADismissedJobIsGone) {
+TEST_F(AppTest, ADismissedJobIsGone) {
     const auto job = execute("denoise", "", square_);
     const std::string path = job->get_header_value("Location");
     EXPECT_EQ(json::parse(client_->Delete(path)->body)["status"], "dismissed");
@@ -155,7 +155,7 @@ TEST_F(RoutesTest, ADismissedJobIsGone) {
     EXPECT_EQ(client_->Delete(path)->status, 410);
 }
 
-TEST_F(RoutesTest, BodiesOverTheLimitAre413) {
+TEST_F(AppTest, BodiesOverTheLimitAre413) {
     const std::string large(1'100'000, 'a');
     EXPECT_EQ(client_->Post("/v1/shapes", large, "application/ply")->status, 413);
     const auto chunked = client_->Post(
@@ -172,7 +172,7 @@ TEST_F(RoutesTest, BodiesOverTheLimitAre413) {
     EXPECT_EQ(chunked->status, 413);
 }
 
-TEST_F(RoutesTest, ACompressedBombIsStoppedAtTheLimit) {
+TEST_F(AppTest, ACompressedBombIsStoppedAtTheLimit) {
     client_->set_compress(true);
     const std::string bomb(20'000'000, 'a');  // a few kilobytes on the wire
     const auto result = client_->Post("/v1/shapes", bomb, "text/plain");
@@ -181,13 +181,13 @@ TEST_F(RoutesTest, ACompressedBombIsStoppedAtTheLimit) {
     EXPECT_EQ(result->status, 413);
 }
 
-TEST_F(RoutesTest, UnknownThingsAre404) {
+TEST_F(AppTest, UnknownThingsAre404) {
     for (const char* path : {"/v1/nothing", "/v1/jobs/x", "/v1/shapes/x", "/v1/dictionaries/x",
                              "/v1/processes/x", "/etc/passwd", "/v1/jobs/x/results"})
         EXPECT_EQ(client_->Get(path)->status, 404) << path;
 }
 
-TEST_F(RoutesTest, EveryAnswerCarriesItsIdAndSafeHeaders) {
+TEST_F(AppTest, EveryAnswerCarriesItsIdAndSafeHeaders) {
     const auto result = client_->Get("/v1/info", {{"X-Request-Id", "abc-1"}});
     EXPECT_EQ(result->get_header_value("X-Request-Id"), "abc-1");
     EXPECT_EQ(result->get_header_value("X-Content-Type-Options"), "nosniff");
@@ -195,7 +195,7 @@ TEST_F(RoutesTest, EveryAnswerCarriesItsIdAndSafeHeaders) {
     EXPECT_NE(forged->get_header_value("X-Request-Id"), "a b");
 }
 
-TEST_F(RoutesTest, TheAdminListenerAnswersOnItsOwnPort) {
+TEST_F(AppTest, TheAdminListenerAnswersOnItsOwnPort) {
     httplib::Client admin("127.0.0.1", app_->admin_port());
     EXPECT_EQ(admin.Get("/healthz")->status, 200);
     EXPECT_EQ(admin.Get("/readyz")->status, 200);
@@ -204,7 +204,7 @@ TEST_F(RoutesTest, TheAdminListenerAnswersOnItsOwnPort) {
     EXPECT_EQ(client_->Get("/metrics")->status, 404);
 }
 
-TEST_F(RoutesTest, TheLogHoldsNoFileNamesAndNoQueries) {
+TEST_F(AppTest, TheLogHoldsNoFileNamesAndNoQueries) {
     const httplib::MultipartFormDataItems items{{"file", square_, "private-name.ply", ""}};
     client_->Post("/v1/shapes", items);
     client_->Get("/v1/jobs?limit=17");
@@ -214,7 +214,7 @@ TEST_F(RoutesTest, TheLogHoldsNoFileNamesAndNoQueries) {
     EXPECT_EQ(lines_.find("limit=17"), std::string::npos);
 }
 
-TEST_F(RoutesTest, TheRootIsAPageUnderAStrictPolicy) {
+TEST_F(AppTest, TheRootIsAPageUnderAStrictPolicy) {
     const auto page = client_->Get("/");
     EXPECT_EQ(page->status, 200);
     EXPECT_NE(page->get_header_value("Content-Security-Policy").find("default-src 'none'"),
