@@ -6,7 +6,6 @@
 #include <cctype>
 #include <cstdlib>
 #include <iostream>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -58,14 +57,14 @@ void add_network_and_work(CLI::App& app, Config& config) {
         ->check(CLI::Range(0, 1024));
     add(app, "--http-threads", config.http_threads, "Requests served at a time; 0 chooses")
         ->check(CLI::Range(0, 1024));
-    const std::map<std::string, LogLevel> levels{{"debug", LogLevel::Debug},
-                                                 {"info", LogLevel::Info},
-                                                 {"warn", LogLevel::Warn},
-                                                 {"error", LogLevel::Error}};
-    app.add_option("--log-level", config.log_level, "Least level of the log: debug info warn error")
+    app.add_option_function<std::string>(
+           "--log-level",
+           [&config](const std::string& name) { config.log_level = *level_from_name(name); },
+           "Least level of the log")
         ->envname("LPF_LOG_LEVEL")
         ->take_last()
-        ->transform(CLI::CheckedTransformer(levels, CLI::ignore_case));
+        ->check(CLI::IsMember({"debug", "info", "warn", "error"}))
+        ->default_str("info");
 }
 
 void add_limits(CLI::App& app, Limits& limits) {
