@@ -191,7 +191,9 @@ TEST_F(ListenerTest, ACutBodyIsIncomplete) {
 
 TEST_F(ListenerTest, MoreConnectionsThanTheQueueHoldsGet503) {
     std::vector<std::unique_ptr<RawClient>> silent;
-    for (int i = 0; i < 12; ++i) silent.push_back(std::make_unique<RawClient>(port_));
+    for (int i = 0; i < 4; ++i) silent.push_back(std::make_unique<RawClient>(port_));
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // all threads are taken
+    for (int i = 0; i < 20; ++i) silent.push_back(std::make_unique<RawClient>(port_));
     int refused = 0;
     for (int i = 0; i < 4; ++i)
         refused += status_of(ask("GET / HTTP/1.1\r\nHost: h\r\n\r\n")) == 503 ? 1 : 0;
