@@ -49,8 +49,9 @@ public:
     void learn(const Execution& execution) {
         previous_ = dictionary_;
         if (params_.keep_dictionary) return;
-        const FieldSample sample{fields_.probe_sample(sample_, part_of(execution, 0.0, 0.3)),
-                                 dictionary_.stride()};
+        FieldSample sample{
+            fields_.probe_sample(sample_, part_of(execution, 0.0, 0.3)), dictionary_.stride(), {}};
+        for (const std::size_t j : sample_) sample.lambda_share.push_back(fields_.lambda_share(j));
         if (energy_.empty() && !params_.initial_dictionary) {
             dictionary_ =
                 draw_dictionary(fields_.pattern(), params_.atoms, sample, params_.random_seed);
@@ -99,29 +100,30 @@ private:
                 FieldEnergy& energy = chunk_energy[chunk];
                 const std::span<float> code = codes_[j];
                 previous_.decode(code, worker.decoded);
-                energy.before += field_energy(worker, code);
+                energy.before += field_energy(j, worker, code);
 
-                coder_.encode(dictionary_, gram, worker.field, worker.correlations, code);
+                coder_.encode(dictionary_, gram, worker.field, worker.correlations, code,
+                              fields_.lambda_share(j));
                 if (!move && params_.debias) debias({gram, worker.correlations, 0.0F}, code);
                 dictionary_.decode(code, worker.decoded);
                 residuals_[j] = residual(worker);
-                energy.learning += field_energy(worker, code);
+                energy.learning += field_energy(j, worker, code);
                 if (!move) return;
 
                 const RigidFit fit =
                     fit_pose(dictionary_.pattern(), worker.field.data(), worker.decoded.data());
                 apply_pose(fit, fields_.frames[j]);
                 move_field(dictionary_.pattern(), fit, worker.field.data());
-                energy.pose += field_energy(worker, code);
+                energy.pose += field_energy(j, worker, code);
             });
         record(chunk_energy, move);
     }
 
-    [[nodiscard]] double field_energy(const FieldSet::Worker& worker,
+    [[nodiscard]] double field_energy(std::size_t j, const FieldSet::Worker& worker,
                                       std::span<const float> code) const {
         return static_cast<double>(kernels::squared_distance(
                    worker.field.data(), worker.decoded.data(), worker.field.size())) +
-               params_.lambda * l1_norm(code);
+               params_.lambda * static_cast<double>(fields_.lambda_share(j)) * l1_norm(code);
     }
 
     [[nodiscard]] float residual(const FieldSet::Worker& worker) const {
@@ -177,6 +179,8 @@ void validate(const AnalysisParams& p) {
     require(p.seed_spacing >= 0 && p.seed_spacing <= 1,
             "The spacing of the seeds must be 0 to 1 radius, so that the LPFs cover the shape.",
             "seedSpacing");
+    require(std::isfinite(p.noise_spread) && p.noise_spread >= 0,
+            "The spread of the noise must be 0 or more.", "noiseSpread");
     require(p.pose_iterations >= 0 && p.pose_iterations <= 50,
             "The pose iterations must be 0 to 50.", "poseIterations");
     require(p.atoms >= 1 && p.atoms <= 256, "The dictionary takes 1 to 256 atoms.", "atoms");

@@ -28,8 +28,11 @@ struct AnalysisParams {
     double radius = 0.0;  ///< r [input length], > 0. No universal default (Sec. 3.6)
     PatternParams pattern = {};
     ProbingKind probing = ProbingKind::AsOrthogonalAsPossible;
-    double target_radius = 1.1;    ///< of the target area [radius], 1 to 2 (Sec. 3.1)
-    double seed_spacing = 0.5;     ///< least distance of seeds [radius]; 0 = one seed per point
+    double target_radius = 1.1;  ///< of the target area [radius], 1 to 2 (Sec. 3.1)
+    double seed_spacing = 0.5;   ///< least distance of seeds [radius]; 0 = one seed per point
+    /// Spread off the mean plane that noise explains [input length]; 0 = one radius for all LPFs.
+    /// Where the shape spreads further it is thinner than the radius, and LPFs get smaller ones.
+    double noise_spread = 0.0;
     bool principal_frames = true;  ///< start from principal directions; false = random (Sec. 3.1)
     int pose_iterations = 2;       ///< as-orthogonal-as-possible passes (Sec. 2.2), 0 to 50
     int atoms = 16;                ///< d, 1 to 256 (Sec. 3.6)

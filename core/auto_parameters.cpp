@@ -23,6 +23,9 @@ constexpr double kLeastDensityShare = 0.4;
 /// Below this ratio of noise to radius a second outer iteration rounds more than it smooths.
 constexpr double kQuiet = 0.06;
 
+/// Spread off the mean plane that noise alone is taken for; more is a part thinner than the radius.
+constexpr double kSigmasOfSpread = 1.5;
+
 constexpr int kPatternPoints = 193;
 constexpr int kFinePatternPoints = 793;
 constexpr int kAtoms = 16;
@@ -46,6 +49,7 @@ public:
         a.debias = true;
         a.radius = choose("radius", q_.radius, auto_radius());
         noise_ratio_ = m_.noise / a.radius;
+        if (!mesh_ && !q_.radius) a.noise_spread = kSigmasOfSpread * m_.noise;
         a.probing = q_.probing.value_or(auto_probing());
         if (q_.dictionary) {
             a.initial_dictionary = q_.dictionary;

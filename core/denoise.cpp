@@ -49,17 +49,19 @@ private:
     std::vector<std::int64_t> sums_;
 };
 
-/// How much an LPF is believed, by its representation error relative to the mean of all.
+/// How much an LPF is believed, by its representation error [input length] relative to the mean.
 std::vector<float> reliabilities(const AnalysisResult& analysis, bool sharp) {
-    const auto& errors = analysis.residuals;
+    std::vector<float> errors(analysis.residuals);
+    for (std::size_t j = 0; j < errors.size(); ++j) {
+        errors[j] *= static_cast<float>(analysis.frames[j].radius / analysis.radius);
+    }
     const float mean = std::accumulate(errors.begin(), errors.end(), 0.0F) /
                        static_cast<float>(std::max<std::size_t>(1, errors.size()));
-    std::vector<float> weights(errors.size());
-    std::ranges::transform(errors, weights.begin(), [&](float error) {
+    for (float& error : errors) {
         const float ratio = (mean + kErrorFloor) / (error + kErrorFloor);
-        return sharp ? ratio * ratio * ratio : ratio;
-    });
-    return weights;
+        error = sharp ? ratio * ratio * ratio : ratio;
+    }
+    return errors;
 }
 
 /// The consolidated field at a place in the plane: T(x, y), so that nothing snaps to the nodes.

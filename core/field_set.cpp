@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/field/seeding.h"
 #include "core/learn/pose.h"
-#include "core/shape/poisson_sampling.h"
 
 namespace lpf {
 namespace {
@@ -46,6 +46,7 @@ FieldSet::FieldSet(const Shape& shape, const AnalysisParams& params, const Execu
       samples_(mesh_samples(shape, params)),
       grid_(samples_.triangle.empty() ? shape.cloud.points : samples_.points,
             kCellPerRadius * params.radius),
+      radius_(params.radius),
       target_radius_(static_cast<float>(params.target_radius)) {
     switch (params.probing) {
         case ProbingKind::AsOrthogonalAsPossible:
@@ -64,20 +65,13 @@ FieldSet::FieldSet(const Shape& shape, const AnalysisParams& params, const Execu
 
 void FieldSet::place(const Points& targets, const AnalysisParams& params,
                      const Execution& execution) {
-    const double spacing = params.seed_spacing * params.radius;
-    std::vector<std::uint8_t> chosen(grid_.size(), 0);
-    for (const std::uint32_t i :
-         poisson_disk_subset(targets, spacing, params.random_seed, part_of(execution, 0.0, 0.5))) {
-        chosen[i] = 1;
-    }
-    // In the order of the grid, so that neighbours in space are neighbours in work.
-    for (const std::uint32_t i : grid_.order()) {
-        if (!chosen[i]) continue;
-        Frame frame;
-        frame.centre = targets.col(i);
-        frame.radius = params.radius;
-        frames.push_back(frame);
-    }
+    frames = place_seeds(targets, grid_,
+                         {.radius = params.radius,
+                          .spacing = params.seed_spacing,
+                          .target_radius = params.target_radius,
+                          .noise_spread = params.noise_spread,
+                          .random_seed = params.random_seed},
+                         part_of(execution, 0.0, 0.5));
     dimensions.assign(frames.size(), kTooFewPoints);
 
     parallel_for(part_of(execution, 0.5, 1.0), "place", "fields", size(), kFieldsPerChunk,

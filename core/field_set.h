@@ -51,6 +51,12 @@ public:
     /// minimises the norms of all v_i.
     void optimise_poses(int passes, const Execution& execution);
 
+    /// Factor on lambda for LPF j: a smaller LPF has fewer points, and more noise in its units.
+    [[nodiscard]] float lambda_share(std::size_t j) const {
+        const double ratio = radius_ / frames[j].radius;
+        return static_cast<float>(ratio * ratio);
+    }
+
     [[nodiscard]] std::size_t size() const { return frames.size(); }
     [[nodiscard]] std::size_t chunks() const;
     [[nodiscard]] const Pattern& pattern() const { return pattern_; }
@@ -69,6 +75,7 @@ private:
     MeshSamples samples_;  // of a mesh that is probed as one
     PointGrid grid_;
     std::unique_ptr<ProbingOperator> operator_;
+    double radius_;
     float target_radius_;
 };
 

@@ -224,8 +224,11 @@ void validate(const ResampleParams& params) {
 /// First guess of tau_p for a number of points, from the area that the disks of all LPFs suggest:
 /// seeds are a packing themselves.
 double guess_spacing(const FieldSet& fields, const AnalysisParams& params, std::size_t wanted) {
-    const double seeds_apart = std::max(params.seed_spacing, 0.05) * params.radius;
-    const double area = static_cast<double>(fields.size()) * seeds_apart * seeds_apart;
+    const double seeds_apart = std::max(params.seed_spacing, 0.05);
+    double area = 0.0;
+    for (const Frame& frame : fields.frames) {
+        area += seeds_apart * seeds_apart * frame.radius * frame.radius;
+    }
     return std::sqrt(area / static_cast<double>(wanted));
 }
 

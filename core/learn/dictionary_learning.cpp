@@ -22,7 +22,9 @@ DictionaryStatistics encode_sample(const FieldSample& sample, const Coder& coder
                  [&](std::size_t begin, std::size_t end, std::size_t chunk) {
                      std::vector<float> correlations(static_cast<std::size_t>(dictionary.atoms()));
                      for (std::size_t i = begin; i < end; ++i) {
-                         coder.encode(dictionary, gram, sample[i], correlations, codes[i]);
+                         const float share =
+                             sample.lambda_share.empty() ? 1.0F : sample.lambda_share[i];
+                         coder.encode(dictionary, gram, sample[i], correlations, codes[i], share);
                          parts[chunk].add(codes[i], sample[i]);
                      }
                  });
@@ -34,10 +36,10 @@ DictionaryStatistics encode_sample(const FieldSample& sample, const Coder& coder
 
 void Coder::encode(const Dictionary& dictionary, std::span<const float> gram,
                    std::span<const float> field, std::span<float> correlations,
-                   std::span<float> code) const {
+                   std::span<float> code, float lambda_share) const {
     kernels::multiply_rows(dictionary.data(), static_cast<std::size_t>(dictionary.atoms()),
                            dictionary.stride(), field.data(), correlations.data());
-    const LassoProblem problem{gram, correlations, lambda};
+    const LassoProblem problem{gram, correlations, lambda * lambda_share};
     if (method == LassoMethod::Lars) {
         solve_lars(problem, code);
     } else {

@@ -19,15 +19,17 @@ struct Coder {
     /// @param gram         dictionary.gram()
     /// @param correlations room for d values
     /// @param code         in: where to start from; out: the sparse code of `field`
+    /// @param lambda_share factor on lambda for this field, > 0
     void encode(const Dictionary& dictionary, std::span<const float> gram,
-                std::span<const float> field, std::span<float> correlations,
-                std::span<float> code) const;
+                std::span<const float> field, std::span<float> correlations, std::span<float> code,
+                float lambda_share = 1.0F) const;
 };
 
 /// Some LPFs' fields, side by side: `count` x stride floats.
 struct FieldSample {
     std::vector<float> fields;
     std::size_t stride = 0;
+    std::vector<float> lambda_share = {};  ///< factor on lambda of each; empty = 1 for all
     [[nodiscard]] std::size_t count() const { return stride ? fields.size() / stride : 0; }
     [[nodiscard]] std::span<const float> operator[](std::size_t i) const {
         return {fields.data() + i * stride, stride};
