@@ -61,6 +61,7 @@ public:
         a.lambda = choose("lambda", q_.lambda, auto_lambda());
         a.iterations =
             choose("analysisIterations", q_.analysis_iterations, auto_analysis_iterations());
+        validate(a);
         if (task_ == Task::Denoise) resolve_denoise();
         if (task_ == Task::Resample) resolve_resample();
         warn();

@@ -127,6 +127,9 @@ void validate(const DenoiseParams& params) {
         throw Error(ErrorCode::InvalidParameter, "The outer iterations must be 1 to 50.",
                     "denoiseIterations");
     }
+    if (!(params.stop_ratio >= 0 && params.stop_ratio <= 1)) {
+        throw Error(ErrorCode::InvalidParameter, "The stop ratio must be 0 to 1.", "stopRatio");
+    }
     if (!(params.gamma >= 0 && std::isfinite(params.gamma))) {
         throw Error(ErrorCode::InvalidParameter, "Gamma must be 0 or more.", "gamma");
     }

@@ -25,7 +25,7 @@ struct PrincipalDirections {
 /// @param target in centre-relative coordinates, not empty
 [[nodiscard]] PrincipalDirections principal_directions(const TargetArea& target);
 
-/// A curve iff (l2 - l3) / (l1 - l3) < .13: subtracting l3 cancels isotropic noise. A straight
+/// A curve iff (l2 - l3) / (l1 - l3) < .19: subtracting l3 cancels isotropic noise. A straight
 /// border gives .28, a right-angled edge .42, a corner .54, a curve nearly 0.
 [[nodiscard]] Dimension local_dimension(const PrincipalDirections& principal, std::size_t points);
 

@@ -136,23 +136,29 @@ void Pattern::index_nodes() {
     std::stable_sort(by_distance_.begin(), by_distance_.end(),
                      [&](int a, int b) { return squared(a, 0, 0) < squared(b, 0, 0); });
 
-    const bool grid = grid_size_ > 0;
-    raster_size_ = grid ? grid_size_ / 2 * 2 + 1 : std::clamp(static_cast<int>(2 / step_), 8, 64);
-    const int per_cell = grid ? 1 : 4;
-    const float cell = grid ? step_ : 2.0F / static_cast<float>(raster_size_);
-    const float first = grid ? -step_ * static_cast<float>(grid_size_ / 2) : -1.0F + cell / 2;
-    std::vector<int> order(by_distance_);
+    raster_size_ =
+        grid_size_ > 0 ? grid_size_ / 2 * 2 + 1 : std::clamp(static_cast<int>(2 / step_), 8, 64);
+    const int per_cell = grid_size_ > 0 ? 1 : 4;
+    const float cell = grid_size_ > 0 ? step_ : 2.0F / static_cast<float>(raster_size_);
+    const float first =
+        -cell * static_cast<float>(raster_size_ / 2) + (raster_size_ % 2 == 0 ? cell / 2 : 0.0F);
+    std::vector<int> nearest(by_distance_);
+    int node = 0;  // of a grid: its nodes run row by row, as the raster does
     for (int row = 0; row < raster_size_; ++row) {
         for (int column = 0; column < raster_size_; ++column) {
             const float x = first + cell * static_cast<float>(column);
             const float y = first + cell * static_cast<float>(row);
-            std::partial_sort(order.begin(), order.begin() + per_cell, order.end(),
+            if (grid_size_ > 0 && node < size_ && squared(node, x, y) < cell * cell / 16) {
+                raster_.push_back(node++);
+                continue;
+            }
+            std::partial_sort(nearest.begin(), nearest.begin() + per_cell, nearest.end(),
                               [&](int a, int b) {
                                   const float da = squared(a, x, y);
                                   const float db = squared(b, x, y);
                                   return da < db || (da == db && a < b);
                               });
-            raster_.insert(raster_.end(), order.begin(), order.begin() + per_cell);
+            raster_.insert(raster_.end(), nearest.begin(), nearest.begin() + per_cell);
         }
     }
 }

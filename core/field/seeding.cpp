@@ -19,7 +19,7 @@ constexpr std::size_t kFewestPointsOfSmaller = 20;
 
 /// A right-angled edge spreads by .19 radii off its mean plane, a corner by .24; two sides of a
 /// thin part, or a bundle of twigs, by more.
-constexpr float kLargestSpread = 0.25F;
+constexpr double kLargestSpread = 0.2;
 
 using Indices = std::vector<std::uint32_t>;
 
@@ -41,8 +41,9 @@ bool suits(const Points& points, const PointGrid& grid, std::uint32_t seed, doub
     grid.gather(frame, static_cast<float>(params.target_radius), target);
     const auto left = static_cast<double>(target.size) * kShrink * kShrink;
     if (left < static_cast<double>(kFewestPointsOfSmaller)) return true;
-    const float spread = std::sqrt(principal_directions(target).variances[2]);
-    return spread <= kLargestSpread || static_cast<double>(spread) * radius <= params.noise_spread;
+    const double noise = params.noise_spread / radius;
+    return static_cast<double>(principal_directions(target).variances[2]) <=
+           kLargestSpread * kLargestSpread + noise * noise;
 }
 
 /// The points that no seed lies within `reach` of.
