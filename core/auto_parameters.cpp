@@ -169,6 +169,7 @@ private:
             r.target_points = choose("targetPoints", q_.target_points,
                                      {m_.points, "as many points as the input has"});
         }
+        r.detail = mesh_ ? 1.0 : 0.0;
         if (mesh_) return;
         r.support = 1.5 * std::max(m_.mean_spacing, m_.density_radius / 12);
         r.denoise = DenoiseParams{};

@@ -20,6 +20,11 @@ struct ResampleParams {
     /// near it is beyond a border and dropped [input length]; 0 = keep all (meshes).
     double support = 0.0;
 
+    /// Share of what the codes leave out of the fields that is put back, 0 to 1: 0 consolidates
+    /// (noisy points), 1 follows the probed shape exactly (meshes, which have no noise to leave
+    /// out).
+    double detail = 0.0;
+
     /// Noisy points are denoised before they are resampled.
     std::optional<DenoiseParams> denoise = {};
 };

@@ -1,0 +1,200 @@
+#include "core/proposals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "core/base/random.h"
+
+namespace lpf {
+namespace {
+
+/// The places of one LPF lie this close at least [tau_p]. With all the LPFs that overlap, the
+/// packing is nearly saturated then. A search for a number of points makes do with fewer.
+constexpr double kCandidateStep = 0.9;
+constexpr double kCandidateStepOfSearch = 1.3;
+constexpr int kMostSubdivisions = 16;
+
+/// A gap of so many local spacings belongs to the shape still.
+constexpr double kSupportSpacings = 1.2;
+
+/// Places of the plane at which an LPF proposes a point, at most `apart` from each other [input
+/// length], ordered from the centre outwards: the nodes of the pattern or, where they are too far
+/// apart, a finer grid.
+std::vector<Eigen::Vector2f> proposal_places(const Pattern& pattern, double radius, double apart) {
+    const double step = static_cast<double>(pattern.step()) * radius;
+    const int cuts =
+        std::clamp(static_cast<int>(std::ceil(step / apart - 1e-9)), 1, kMostSubdivisions);
+    std::vector<Eigen::Vector2f> places;
+    if (cuts == 1) {
+        for (const int i : pattern.by_distance()) places.push_back(pattern.point(i).head<2>());
+        return places;
+    }
+    const float fine = pattern.step() / static_cast<float>(cuts);
+    const int half = static_cast<int>(1.0F / fine);
+    for (int j = -half; j <= half; ++j) {
+        for (int i = -half; i <= half; ++i) {
+            const Eigen::Vector2f place(fine * static_cast<float>(i), fine * static_cast<float>(j));
+            if (place.norm() < 1) places.push_back(place);
+        }
+    }
+    std::ranges::stable_sort(places, {}, [](const Eigen::Vector2f& p) { return p.squaredNorm(); });
+    return places;
+}
+
+/// The same places, each shaken by up to half of `apart`: on a grid, the number of points would
+/// jump where the spacing that is searched for passes the step of the grid.
+void shake(std::vector<Eigen::Vector2f>& places, double apart) {
+    Random random(places.size(), 0x5ba4e);
+    for (Eigen::Vector2f& place : places) {
+        const Eigen::Vector2f shaken =
+            place + Eigen::Vector2f(static_cast<float>(random.uniform(-0.5, 0.5) * apart),
+                                    static_cast<float>(random.uniform(-0.5, 0.5) * apart));
+        if (shaken.norm() < 1) place = shaken;
+    }
+}
+
+/// Whether target points lie near places of the plane: cells of one support distance.
+class Support {
+public:
+    Support(const TargetArea& target, float distance) : distance_(distance) {
+        side_ = static_cast<int>(std::min(256.0F, std::ceil(2 * kReach / distance))) + 1;
+        cells_.resize(static_cast<std::size_t>(side_ * side_));
+        for (std::size_t i = 0; i < target.size; ++i) {
+            cells_[static_cast<std::size_t>(cell_of(target.y[i]) * side_ + cell_of(target.x[i]))]
+                .emplace_back(target.x[i], target.y[i]);
+        }
+    }
+
+    [[nodiscard]] bool covers(float x, float y) const {
+        for (int j = std::max(0, cell_of(y) - 1); j <= std::min(side_ - 1, cell_of(y) + 1); ++j) {
+            for (int i = std::max(0, cell_of(x) - 1); i <= std::min(side_ - 1, cell_of(x) + 1);
+                 ++i) {
+                for (const Eigen::Vector2f& p : cells_[static_cast<std::size_t>(j * side_ + i)]) {
+                    if ((p - Eigen::Vector2f(x, y)).squaredNorm() <= distance_ * distance_) {
+                        return true;
+                    }
+                }
+            }
+        }
+        return false;
+    }
+
+private:
+    static constexpr float kReach = 2.0F;  // target areas are no wider
+
+    [[nodiscard]] int cell_of(float coordinate) const {
+        const float cell = std::max(distance_, 2 * kReach / 256.0F);
+        return std::clamp(static_cast<int>((coordinate + kReach) / cell), 0, side_ - 1);
+    }
+
+    float distance_;
+    int side_ = 1;
+    std::vector<std::vector<Eigen::Vector2f>> cells_;
+};
+
+/// A field that jumps further between neighbouring nodes leaps from one part of the shape to
+/// another; what lies between belongs to neither [steps of the pattern].
+constexpr float kLargestJump = 4.0F;
+
+/// The place, moved by the field there; nothing where the field jumps.
+std::optional<Eigen::Vector3f> displace(const Pattern& pattern, const std::vector<float>& field,
+                                        const Eigen::Vector2f& place) {
+    const Pattern::Stencil stencil = pattern.stencil(place.x(), place.y());
+    const int stride = pattern.padded_size();
+    Eigen::Vector3f value(place.x(), place.y(), 0.0F);
+    float low = std::numeric_limits<float>::infinity();
+    float high = -low;
+    for (int k = 0; k < 4; ++k) {
+        const float* node = field.data() + stencil.node[k];
+        value += stencil.weight[k] * Eigen::Vector3f(node[0], node[stride], node[2 * stride]);
+        low = std::min(low, node[2 * stride]);
+        high = std::max(high, node[2 * stride]);
+    }
+    if (high - low > kLargestJump * pattern.step()) return std::nullopt;
+    return value;
+}
+
+/// How far the shape goes on between the points of one target area [radius]: at least the distance
+/// given, more where the points are sparser than elsewhere, never more than half the radius.
+float support_distance(const TargetArea& target, double support, double spacing, double radius) {
+    const double points = std::max(1.0, static_cast<double>(target.size));
+    const double local = std::min(0.5, kSupportSpacings * std::sqrt(std::numbers::pi / points));
+    return static_cast<float>(std::max({support / radius, spacing / 2 / radius, local}));
+}
+
+/// Eq. 7 for one LPF: the places of its pattern, moved by its reconstructed field. An LPF of too
+/// few points knows no field: it proposes the points themselves, so that nothing sparse is lost.
+void propose(const Frame& frame, const Pattern& pattern, const TargetArea& target,
+             const std::vector<float>& field, const std::vector<Eigen::Vector2f>& places,
+             float support, std::vector<Eigen::Vector3d>& proposals) {
+    const Support supported(target, support);
+    for (const Eigen::Vector2f& place : places) {
+        const auto p = displace(pattern, field, place);
+        if (p && supported.covers(p->x(), p->y())) proposals.push_back(frame.to_world(*p));
+    }
+}
+
+void propose_points(const Frame& frame, const TargetArea& target,
+                    std::vector<Eigen::Vector3d>& proposals) {
+    for (std::size_t i = 0; i < target.size; ++i) {
+        proposals.push_back(frame.to_world({target.x[i], target.y[i], target.z[i]}));
+    }
+}
+
+/// LPF by LPF, each from its centre outwards; LPFs are in spatial order, so that the consensus
+/// works on what lies together in memory.
+Candidates collect(std::vector<std::vector<Eigen::Vector3d>> proposals) {
+    std::size_t total = 0;
+    for (const auto& of_field : proposals) total += of_field.size();
+    Candidates candidates{Points(3, static_cast<Eigen::Index>(total)), {}};
+    candidates.field.reserve(total);
+    for (std::size_t j = 0; j < proposals.size(); ++j) {
+        for (const Eigen::Vector3d& point : proposals[j]) {
+            candidates.points.col(static_cast<Eigen::Index>(candidates.size())) = point;
+            candidates.field.push_back(static_cast<std::uint32_t>(j));
+        }
+        std::vector<Eigen::Vector3d>().swap(proposals[j]);
+    }
+    return candidates;
+}
+
+}  // namespace
+
+Candidates propose(const FieldSet& fields, const AnalysisResult& analysis,
+                   const ResampleParams& params, double spacing, const Execution& execution) {
+    constexpr float kEverywhere = 10.0F;
+    const bool search = params.target_points > 0;
+    const double apart = spacing * (search ? kCandidateStepOfSearch : kCandidateStep);
+    auto places = proposal_places(fields.pattern(), analysis.radius, apart);
+    if (search) shake(places, apart / analysis.radius);
+    std::vector<std::vector<Eigen::Vector3d>> proposals(fields.size());
+    const auto propose_of = [&](std::size_t j, FieldSet::Worker& worker, std::size_t) {
+        const TargetArea& target = worker.probe.target;
+        const Frame& frame = fields.frames[j];
+        if (fields.dimensions[j] == kTooFewPoints) {
+            propose_points(frame, target, proposals[j]);
+            return;
+        }
+        analysis.dictionary.decode(analysis.codes[j], worker.decoded);
+        for (std::size_t i = 0; i < worker.decoded.size() && params.detail > 0; ++i) {
+            worker.decoded[i] +=
+                static_cast<float>(params.detail) * (worker.field[i] - worker.decoded[i]);
+        }
+        const float distance = params.support > 0
+                                   ? support_distance(target, params.support, spacing, frame.radius)
+                                   : kEverywhere;
+        propose(frame, fields.pattern(), target, worker.decoded, places, distance, proposals[j]);
+    };
+    if (params.detail > 0) {
+        fields.for_each_probed("propose", execution, 0, propose_of);
+    } else {
+        fields.for_each_target("propose", execution, propose_of);
+    }
+    return collect(std::move(proposals));
+}
+
+}  // namespace lpf
