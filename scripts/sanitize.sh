@@ -1,8 +1,12 @@
 #!/usr/bin/env bash
-# Builds with sanitizers and runs every test under them.
+# Builds with sanitizers and runs every test under them. Takes far longer than scripts/test.sh, so
+# continuous integration leaves it out; run it before a release and after work on memory or threads.
 #
 #   scripts/sanitize.sh asan [CTEST OPTION ...]    addresses and undefined behaviour (the default)
 #   scripts/sanitize.sh tsan [CTEST OPTION ...]    data races
+#
+# Fails when a test fails, and also when a program reported something and nobody looked: a server
+# that a test ends by a signal, or one whose exit code no test asks for.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -14,6 +18,11 @@ case "$preset" in
 esac
 
 scripts/install-dependencies.sh
+
+# Each program writes what it finds to a file of its own here.
+reports=$PWD/build/$preset/reports
+rm -rf "$reports"
+mkdir -p "$reports"
 export ASAN_OPTIONS=detect_leaks=1:strict_string_checks=1:detect_stack_use_after_return=1
 export UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1
 export TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1
@@ -22,6 +31,27 @@ export TSAN_OPTIONS=halt_on_error=1:second_deadlock_stack=1
 # taken and gives up; its programs also run while building, when the tests are listed.
 run=()
 [ "$preset" = tsan ] && run=(setarch "$(uname -m)" --addr-no-randomize)
+begin=$SECONDS
 "${run[@]}" cmake --preset "$preset"
 "${run[@]}" cmake --build --preset "$preset" -j "$(nproc)"
-"${run[@]}" ctest --preset "$preset" -j "$(nproc)" --timeout 1800 --no-tests=error "$@" </dev/null
+built=$SECONDS
+
+ASAN_OPTIONS+=:log_path=$reports/address
+UBSAN_OPTIONS+=:log_path=$reports/undefined
+TSAN_OPTIONS+=:log_path=$reports/thread
+status=0
+"${run[@]}" ctest --preset "$preset" -j "$(nproc)" --timeout 1800 --no-tests=error "$@" \
+    </dev/null || status=$?
+
+found=$(find "$reports" -type f -size +0 | wc -l)
+echo
+echo "$preset: built in $((built - begin)) s, tested in $((SECONDS - built)) s."
+if [ "$found" -ne 0 ]; then
+    grep -hE '^SUMMARY|runtime error:|ERROR: |WARNING: ' -r "$reports" | sort | uniq -c || true
+    echo "The sanitizers wrote $found reports to $reports." >&2
+elif [ "$status" -eq 0 ]; then
+    echo "All tests passed, and the sanitizers have nothing to report."
+else
+    echo "Tests failed; the sanitizers have nothing to report." >&2
+fi
+[ "$status" -eq 0 ] && [ "$found" -eq 0 ]
