@@ -45,7 +45,7 @@ private:
 /// A name as one step of a JSON pointer (RFC 6901): "a/b" -> "/a~1b".
 [[nodiscard]] std::string pointer_step(std::string_view name);
 
-/// What a parameter takes, in words: "an integer from 5 to 12853".
+/// What a parameter takes, in words: "an integer from 5 to 12849".
 [[nodiscard]] std::string expectation(const Parameter& parameter);
 
 }  // namespace lpf

@@ -7,8 +7,8 @@
 
 namespace lpf {
 
-/// Every limit of the service, checked before anything is allocated. Each is a flag of the server
-/// and is shown by GET /v1/info under the name that `limit_table` gives it.
+/// Every limit that the service keeps, checked before anything is allocated. Each is a flag of the
+/// server and is shown by GET /v1/info under the name that `limit_table` gives it.
 struct Limits {
     std::uint64_t upload_bytes = 512ULL << 20;
     std::uint64_t points = 20'000'000;
@@ -23,27 +23,20 @@ struct Limits {
     std::uint64_t uri_bytes = 8ULL << 10;
     std::uint64_t body_idle_seconds = 15;
     std::uint64_t body_seconds = 3600;
-    std::uint64_t connections = 4096;
-    std::uint64_t connections_per_address = 64;
-    std::uint64_t requests_per_second = 20;
-    std::uint64_t request_burst = 40;
-    std::uint64_t uploads_per_second = 2;
 
     std::uint64_t queued_jobs = 1000;
-    std::uint64_t queued_jobs_per_key = 100;
     std::uint64_t job_seconds = 3600;
     std::uint64_t job_attempts = 3;
     std::uint64_t wait_seconds = 60;
     std::uint64_t page_items = 1000;
 
-    std::uint64_t pattern_points = 12'853;
+    std::uint64_t pattern_points = 12'849;
     std::uint64_t atoms = 256;
     std::uint64_t analysis_iterations = 1000;
     std::uint64_t denoise_iterations = 50;
 
     std::uint64_t result_retention_seconds = 7ULL * 24 * 3600;
     std::uint64_t status_retention_seconds = 30ULL * 24 * 3600;
-    std::uint64_t upload_retention_seconds = 24ULL * 3600;
     std::uint64_t disk_floor_bytes = 2ULL << 30;
     std::uint64_t disk_floor_percent = 5;
 };

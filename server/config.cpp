@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cstdlib>
 #include <iostream>
@@ -80,11 +79,6 @@ void add_limits(CLI::App& app, Limits& limits) {
 }  // namespace
 
 std::string limit_flag(std::string_view limit_name) {
-    // Limits that are documented on the wire but not yet enforced must not look like switches.
-    constexpr std::array kNotYet{
-        "connections",      "connectionsPerAddress", "requestsPerSecond",     "requestBurst",
-        "uploadsPerSecond", "queuedJobsPerKey",      "uploadRetentionSeconds"};
-    if (std::find(kNotYet.begin(), kNotYet.end(), limit_name) != kNotYet.end()) return {};
     const bool is_maximum = limit_name.find("Retention") == std::string_view::npos &&
                             limit_name.find("Floor") == std::string_view::npos;
     std::string flag = is_maximum ? "--max-" : "--";

@@ -161,7 +161,6 @@ TEST(Limits, DefaultsAreThoseOfTheContract) {
     EXPECT_EQ(json["jsonBytes"], 1 << 20);
     EXPECT_EQ(json["jsonDepth"], 32);
     EXPECT_EQ(json["queuedJobs"], 1000);
-    EXPECT_EQ(json["queuedJobsPerKey"], 100);
     EXPECT_EQ(json["jobSeconds"], 3600);
     EXPECT_EQ(json["waitSeconds"], 60);
 }

@@ -80,7 +80,6 @@ TEST(Config, LimitFlagsFollowTheNamesOnTheWire) {
     EXPECT_EQ(limit_flag("uploadBytes"), "--max-upload-bytes");
     EXPECT_EQ(limit_flag("diskFloorBytes"), "--disk-floor-bytes");
     EXPECT_EQ(limit_flag("resultRetentionSeconds"), "--result-retention-seconds");
-    EXPECT_EQ(limit_flag("uploadsPerSecond"), "");
 }
 
 struct ThreadCase {
