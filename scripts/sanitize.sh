@@ -5,8 +5,9 @@
 #   scripts/sanitize.sh asan [CTEST OPTION ...]    addresses and undefined behaviour (the default)
 #   scripts/sanitize.sh tsan [CTEST OPTION ...]    data races
 #
-# Fails when a test fails, and also when a program reported something and nobody looked: a server
-# that a test ends by a signal, or one whose exit code no test asks for.
+# Fails when a test fails, and also when a program reported something to a file and no test looked,
+# such as a leak of a server whose exit code no test asks for. Undefined behaviour ends its program
+# and is told on standard error, in the output of the failed test.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -37,7 +38,6 @@ begin=$SECONDS
 built=$SECONDS
 
 ASAN_OPTIONS+=:log_path=$reports/address
-UBSAN_OPTIONS+=:log_path=$reports/undefined
 TSAN_OPTIONS+=:log_path=$reports/thread
 status=0
 "${run[@]}" ctest --preset "$preset" -j "$(nproc)" --timeout 1800 --no-tests=error "$@" \

@@ -52,6 +52,7 @@ Candidates brute_force(const Candidates& candidates, double spacing) {
         }
         spent[i] = true;
     }
+    if (points.empty()) return result;
     result.points = Eigen::Map<const Points>(points.front().data(), 3,
                                              static_cast<Eigen::Index>(points.size()));
     return result;
