@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "core/base/random.h"
+#include "core/shape/hash_grid.h"
 
 namespace lpf {
 namespace {
@@ -43,91 +44,30 @@ private:
     Round rounds_[4];
 };
 
-using Cell = Eigen::Matrix<std::int64_t, 3, 1>;
-
-/// The chosen points in a hash grid. Its cells are at least two spacings wide, so that the ball
-/// around a point meets at most eight of them. Cells with equal hashes share a list, which costs
-/// time but changes nothing: distances decide.
+/// The chosen points, of which no two are nearer than the spacing.
 class DiskSet {
 public:
     DiskSet(const Points& points, double spacing)
-        : squared_spacing_(spacing * spacing), slots_(1U << 10U, kEmpty) {
-        low_ = points.rowwise().minCoeff();
-        const double extent = (points.rowwise().maxCoeff() - low_).maxCoeff();
-        cell_size_ = std::max(2.001 * spacing, extent * 0x1p-30);
-    }
+        : squared_spacing_(spacing * spacing),
+          chosen_(points.rowwise().minCoeff(), extent_of(points), spacing) {}
 
     /// Chooses the point unless a chosen one is nearer than the spacing.
     bool insert(const Eigen::Vector3d& point) {
-        const Eigen::Vector3d position = (point - low_) / cell_size_;
-        const Eigen::Vector3d floor = position.array().floor();
-        const Cell cell = floor.cast<std::int64_t>();
-        Cell towards;  // to the nearer neighbour along each axis
-        for (int c = 0; c < 3; ++c) towards[c] = position[c] - floor[c] < 0.5 ? -1 : 1;
-        for (int corner = 0; corner < 8; ++corner) {
-            const Cell step(corner & 1, (corner >> 1) & 1, corner >> 2);
-            if (has_near(hash(cell + step.cwiseProduct(towards)), point)) return false;
-        }
-        add(hash(cell), point);
-        return true;
+        bool free = true;
+        chosen_.for_each_near(point, [&](std::uint32_t, const Eigen::Vector3d& other) {
+            return free = (other - point).squaredNorm() >= squared_spacing_;
+        });
+        if (free) chosen_.add(point);
+        return free;
     }
 
 private:
-    static constexpr std::uint32_t kEmpty = 0xffffffff;
-
-    struct Disk {
-        Eigen::Vector3d point;
-        std::uint64_t key;
-        std::uint32_t next;  // disk of the same key
-    };
-
-    static std::uint64_t hash(const Cell& cell) {
-        std::uint64_t key = 0;
-        for (int c = 0; c < 3; ++c) {
-            key = (key ^ static_cast<std::uint64_t>(cell[c])) * 0x9e3779b97f4a7c15ULL;
-            key ^= key >> 32U;
-        }
-        return key;
-    }
-
-    /// The slot that holds the key, or the empty one where it belongs.
-    [[nodiscard]] std::size_t slot_of(std::uint64_t key) const {
-        std::size_t slot = key & (slots_.size() - 1);
-        while (slots_[slot] != kEmpty && disks_[slots_[slot]].key != key) {
-            slot = (slot + 1) & (slots_.size() - 1);
-        }
-        return slot;
-    }
-
-    [[nodiscard]] bool has_near(std::uint64_t key, const Eigen::Vector3d& point) const {
-        for (std::uint32_t i = slots_[slot_of(key)]; i != kEmpty; i = disks_[i].next) {
-            if ((disks_[i].point - point).squaredNorm() < squared_spacing_) return true;
-        }
-        return false;
-    }
-
-    void add(std::uint64_t key, const Eigen::Vector3d& point) {
-        if (2 * used_slots_ >= slots_.size()) grow();
-        std::uint32_t& head = slots_[slot_of(key)];
-        used_slots_ += head == kEmpty;
-        disks_.push_back({point, key, head});
-        head = static_cast<std::uint32_t>(disks_.size() - 1);
-    }
-
-    void grow() {
-        const std::vector<std::uint32_t> old = std::move(slots_);
-        slots_.assign(2 * old.size(), kEmpty);
-        for (const std::uint32_t head : old) {
-            if (head != kEmpty) slots_[slot_of(disks_[head].key)] = head;
-        }
+    static double extent_of(const Points& points) {
+        return (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff();
     }
 
     double squared_spacing_;
-    Eigen::Vector3d low_;
-    double cell_size_;
-    std::vector<Disk> disks_;
-    std::vector<std::uint32_t> slots_;  // open addressing; first disk of a key
-    std::size_t used_slots_ = 0;
+    HashGrid chosen_;
 };
 
 double area_of(const Points& vertices, const Triangles& triangles, Eigen::Index f) {
