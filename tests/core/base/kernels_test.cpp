@@ -121,6 +121,52 @@ TEST_P(KernelsOf, ConvolveAgreesWithItsDefinition) {
     EXPECT_EQ(out[n], 7.0F) << "wrote past the end";
 }
 
+TEST_P(KernelsOf, ToFrameIsTheTransposedAxesTimesTheOffset) {
+    const Floats p[3] = {random_floats(n, 14), random_floats(n, 15), random_floats(n, 16)};
+    Floats out[3] = {p[0], p[1], p[2]};
+    const float axes[9] = {1, 2, 3, 4, 5, 6, 7, 8, 10};  // row-major, nothing alike
+    const float origin[3] = {0.5F, -1.5F, 2.5F};
+    kernels::to_frame(axes, origin, out[0].data(), out[1].data(), out[2].data(), n);
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t column = 0; column < 3; ++column) {
+            double expected = 0;
+            for (std::size_t row = 0; row < 3; ++row) {
+                expected += double{axes[3 * row + column]} * (double{p[row][i]} - origin[row]);
+            }
+            ASSERT_NEAR(out[column][i], expected, 1e-4);
+        }
+    }
+}
+
+TEST_P(KernelsOf, GatherBallKeepsThePointsInsideWithTheirNumbers) {
+    std::vector<double> p[3];
+    Random random(17);
+    for (auto& axis : p) {
+        for (std::size_t i = 0; i < n; ++i) axis.push_back(5 + random.normal());
+    }
+    const double centre[3] = {5.1, 4.9, 5.2};
+    const double scale = 0.5;
+    const float limit = 0.7F;
+    Floats out[3] = {Floats(n + 1), Floats(n + 1), Floats(n + 1)};
+    std::vector<unsigned> index(n + 1);
+    const std::size_t kept =
+        kernels::gather_ball(p[0].data(), p[1].data(), p[2].data(), n, centre, scale, limit, 100,
+                             out[0].data(), out[1].data(), out[2].data(), index.data());
+    std::size_t expected = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+        double squared = 0;
+        for (std::size_t c = 0; c < 3; ++c) squared += std::pow(scale * (p[c][i] - centre[c]), 2);
+        if (squared > 0.49) continue;
+        ASSERT_LT(expected, kept);
+        EXPECT_EQ(index[expected], 100 + i);
+        for (std::size_t c = 0; c < 3; ++c) {
+            EXPECT_NEAR(out[c][expected], scale * (p[c][i] - centre[c]), 1e-6);
+        }
+        ++expected;
+    }
+    EXPECT_EQ(kept, expected);
+}
+
 INSTANTIATE_TEST_SUITE_P(Sizes, KernelsOf, testing::Values(0, 1, 3, 8, 15, 16, 17, 64, 193),
                          testing::PrintToStringParamName());
 

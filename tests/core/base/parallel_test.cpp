@@ -142,5 +142,14 @@ TEST(ErrorType, CarriesCodeMessageAndField) {
     EXPECT_EQ(error.field(), "radius");
 }
 
+TEST(ParallelFor, OfNothingIsDoneAtOnce) {
+    std::vector<double> fractions;
+    const Execution execution{
+        .progress = [&](const Progress& progress) { fractions.push_back(progress.fraction); }};
+    parallel_for(execution, "phase", "unit", 0, 10, [](auto, auto, auto) { FAIL(); });
+    ASSERT_FALSE(fractions.empty());
+    EXPECT_EQ(fractions.back(), 1.0);
+}
+
 }  // namespace
 }  // namespace lpf

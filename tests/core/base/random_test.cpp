@@ -93,5 +93,17 @@ TEST(RandomNumbers, NormalHasMeanZeroVarianceOneAndNoSkew) {
     EXPECT_NEAR(fourth / kDraws, 3, 0.1);
 }
 
+TEST(RandomNumbers, StayInTheirRange) {
+    Random random(21);
+    double sum = 0;
+    for (int i = 0; i < 4000; ++i) {
+        const double value = random.uniform(-3.0, 5.0);
+        ASSERT_GE(value, -3.0);
+        ASSERT_LT(value, 5.0);
+        sum += value;
+    }
+    EXPECT_NEAR(sum / 4000, 1.0, 0.15);
+}
+
 }  // namespace
 }  // namespace lpf

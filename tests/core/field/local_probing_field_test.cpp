@@ -115,6 +115,29 @@ TEST(LocalDimension, OfAFewPointsIsUnknown) {
     EXPECT_NE(dimension_of(points), kTooFewPoints);
 }
 
+TEST(LocalDimension, LooksAtTheSpreadAboveThatOfTheNoise) {
+    const auto of = [](float l1, float l2, float l3) {
+        return local_dimension({.mean = {}, .variances = {l1, l2, l3}, .axes = {}}, 100);
+    };
+    // A thick line: the same spread across it in both directions.
+    EXPECT_EQ(of(0.3F, 0.1F, 0.1F), kCurve);
+    EXPECT_EQ(of(0.3F, 0.1F, 0.0F), kSurface);
+    EXPECT_EQ(of(1.1F, 0.1F + 0.18F, 0.1F), kCurve);
+    EXPECT_EQ(of(1.1F, 0.1F + 0.20F, 0.1F), kSurface);
+}
+
+TEST(FrameOfAField, HasItsSeedAtTheOriginOfItsCoordinates) {
+    Frame frame;
+    frame.centre << 10, -20, 30;
+    frame.radius = 0.25;
+    frame.origin << 0.4F, -0.8F, 0.2F;
+    frame.axes = Eigen::AngleAxisf(0.7F, Vector3f(1, 2, 3).normalized()).toRotationMatrix();
+    EXPECT_LT((frame.seed() - Eigen::Vector3d(10.1, -20.2, 30.05)).norm(), 1e-6);
+    EXPECT_LT((frame.seed() - frame.to_world(Vector3f::Zero())).norm(), 1e-6);
+    const Vector3f p(0.3F, 0.5F, -0.6F);
+    EXPECT_LT((frame.to_local(frame.to_world(p)) - p).norm(), 1e-5F);
+}
+
 TEST(FirstPose, LiesOnTheMeanPlaneBelowTheCentre) {
     Matrix3Xf points = noisy(3, [](float s, float t) { return Vector3f(s, t, 0); });
     const Matrix3f turn = Eigen::AngleAxisf(0.5F, Vector3f::UnitX()).toRotationMatrix();

@@ -214,5 +214,16 @@ TEST(PatternErrors, NameTheFieldAtFault) {
     expect_invalid([&] { Pattern::from_points(offsets); });
 }
 
+TEST(PatternGrid, SizeForPointsIsTheNearestAndTheSmallerOnATie) {
+    for (int n = 4; n <= 40; ++n) {
+        const int points = Pattern::grid(n).size();
+        const int next = Pattern::grid(n + 1).size();
+        if (points == next || Pattern::grid_size_for(points) != n) continue;  // of equal ones
+        const int middle = (points + next) / 2;
+        EXPECT_EQ(Pattern::grid_size_for(middle), n) << points << " and " << next;
+        EXPECT_EQ(Pattern::grid_size_for(middle + 1), n + 1) << points << " and " << next;
+    }
+}
+
 }  // namespace
 }  // namespace lpf

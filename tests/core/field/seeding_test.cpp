@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/shape/poisson_sampling.h"
 #include "tests/core/clouds.h"
@@ -106,6 +107,35 @@ TEST(Seeding, DoesNotDependOnTheThreads) {
         EXPECT_EQ(one[j].centre, five[j].centre);
         EXPECT_EQ(one[j].radius, five[j].radius);
     }
+}
+
+TEST(Seeding, CoversEveryPointWithinTheSpacingOfASeed) {
+    for (const double gap : {0.12, 0.3}) {
+        const Points points = test::make_thin_plate({.points = 12000, .noise = 0.002}, gap).points;
+        const std::vector<Frame> seeds = seeds_of(points, 0.003);
+        for (Eigen::Index i = 0; i < points.cols(); ++i) {
+            ASSERT_TRUE(std::ranges::any_of(seeds,
+                                            [&](const Frame& seed) {
+                                                return (points.col(i) - seed.centre).norm() <=
+                                                       0.5 * seed.radius * (1 + 1e-9);
+                                            }))
+                << "gap " << gap;
+        }
+    }
+}
+
+TEST(Seeding, KeepsSeedsOfOneSizeApart) {
+    const Points points = test::make_thin_plate({.points = 12000, .noise = 0.002}).points;
+    const std::vector<Frame> seeds = seeds_of(points, 0.003);
+    std::set<double> sizes;
+    for (const Frame& a : seeds) {
+        sizes.insert(a.radius);
+        for (const Frame& b : seeds) {
+            if (&a == &b || a.radius != b.radius) continue;
+            ASSERT_GE((a.centre - b.centre).norm(), 0.5 * a.radius * (1 - 1e-9));
+        }
+    }
+    EXPECT_GT(sizes.size(), 1U);
 }
 
 }  // namespace

@@ -308,5 +308,19 @@ TEST(Debias, LeavesTheEmptySupportEmpty) {
     EXPECT_EQ(code, std::vector<float>(4, 0.0F));
 }
 
+TEST(Lasso, TakesAtomsOfAnyNorm) {
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+        Instance instance = make_instance(8, 0.5, seed);
+        for (Eigen::Index k = 0; k < 8; ++k) {
+            instance.atoms.col(k) *= 0.3 + 0.2 * static_cast<double>(k);
+        }
+        measure(instance);
+        for (const float lambda : kLambdas) {
+            EXPECT_LT(kkt_violation(instance, lambda, descend(instance.at(lambda), 8)), 1e-3);
+            EXPECT_LT(kkt_violation(instance, lambda, lars(instance.at(lambda), 8)), 1e-3);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace lpf

@@ -221,5 +221,34 @@ TEST(FitPose, IsTheIdentityBetweenEqualFields) {
     EXPECT_LT(fit.translation.norm(), 1e-3F);
 }
 
+TEST(BestRotation, OfAPositiveDefiniteMatrixIsTheIdentity) {
+    Random random(11);
+    for (int i = 0; i < 50; ++i) {
+        Eigen::Matrix3d root;
+        for (double& value : root.reshaped()) value = random.normal();
+        const Eigen::Matrix3d s = root * root.transpose() + 0.1 * Eigen::Matrix3d::Identity();
+        EXPECT_LT((best_rotation(s) - Eigen::Matrix3f::Identity()).norm(), 1e-5F);
+    }
+}
+
+TEST(BestRotation, OfALineTurnsItOntoTheOther) {
+    Random random(12);
+    for (int i = 0; i < 50; ++i) {
+        const Eigen::Vector3d a(random.normal(), random.normal(), random.normal());
+        const Eigen::Vector3d b(random.normal(), random.normal(), random.normal());
+        const Eigen::Matrix3d r = best_rotation(a * b.transpose()).cast<double>();
+        EXPECT_LT((r.transpose() * r - Eigen::Matrix3d::Identity()).norm(), 1e-5);
+        EXPECT_GT((r * a.normalized()).dot(b.normalized()), 0.999);
+    }
+}
+
+TEST(ApplyPose, MakesAWornFrameARotationAgain) {
+    Frame frame;
+    frame.axes << 1.01F, 0.02F, 0, -0.01F, 0.98F, 0.03F, 0.01F, 0, 1.02F;
+    apply_pose({}, frame);
+    EXPECT_LT((frame.axes.transpose() * frame.axes - Eigen::Matrix3f::Identity()).norm(), 1e-5F);
+    EXPECT_NEAR(frame.axes.determinant(), 1, 1e-5F);
+}
+
 }  // namespace
 }  // namespace lpf

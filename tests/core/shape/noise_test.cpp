@@ -64,6 +64,18 @@ INSTANTIATE_TEST_SUITE_P(Sigmas, NoiseOf, testing::Values(0.01, 0.03, 0.06), [](
     return "Thousandths" + std::to_string(std::lround(1000 * test.param));
 });
 
+TEST(Measure, NoiseOfAPlaneIsTheSpreadAboutItsMean) {
+    const Points points = test::make_plane({.points = 20000, .noise = 0.002}).points;
+    EXPECT_NEAR(measure(points, {}).noise, 0.002, 0.06 * 0.002);
+}
+
+TEST(Measure, AHeapOfEqualPointsDoesNotCount) {
+    Points points(3, 1400);
+    points << test::make_plane({.points = 1000}).points, Points::Zero(3, 400);
+    const double alone = measure(points.leftCols(1000), {}).mean_spacing;
+    EXPECT_NEAR(measure(points, {}).mean_spacing, alone, 0.01 * alone);
+}
+
 TEST(Measure, AnExactPlaneHasNoNoise) {
     EXPECT_LT(measure(test::make_plane({.points = 3000}).points, {}).noise, 1e-6);
 }

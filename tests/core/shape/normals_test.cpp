@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <numeric>
 
 #include "core/base/error.h"
+#include "core/base/random.h"
 #include "tests/core/clouds.h"
 #include "tests/support/shapes.h"
 
@@ -80,6 +84,60 @@ TEST_P(NormalsOn, AreUnitVectors) {
 
 INSTANTIATE_TEST_SUITE_P(Clouds, NormalsOn, testing::ValuesIn(test::awkward_clouds()),
                          test::CloudName());
+
+/// `count` points in the plane through the origin across `normal`, the same on both sides of it.
+Points flat_points(const Eigen::Vector3d& normal, Eigen::Index count, std::uint64_t seed) {
+    Random random(seed);
+    const Eigen::Vector3d a = normal.unitOrthogonal();
+    const Eigen::Vector3d b = normal.cross(a);
+    Points points(3, 2 * count);
+    for (Eigen::Index i = 0; i < count; ++i) {
+        points.col(i) = random.normal() * a + random.normal() * b;
+        points.col(count + i) = -points.col(i);
+    }
+    return points;
+}
+
+TEST(Normals, OfAFlatSheetPointAlongTheirGreatestCoordinate) {
+    for (const Eigen::Vector3d& direction :
+         {Eigen::Vector3d(-0.3, 0.9, 0.2), Eigen::Vector3d(-0.3, -0.2, 0.9),
+          Eigen::Vector3d(0.9, -0.4, -0.3), Eigen::Vector3d(-0.4, 0.8, -0.5)}) {
+        const Eigen::Vector3d expected = direction.normalized();
+        const Eigen::Matrix3Xf normals = estimate_normals(flat_points(expected, 100, 3), 8, {});
+        for (const Eigen::Vector3f& normal : normals.colwise()) {
+            ASSERT_GT(normal.dot(expected.cast<float>()), 0.999F);
+        }
+    }
+}
+
+TEST(Normals, TakeThreeNeighboursAtLeast) {
+    const Eigen::Vector3d expected = Eigen::Vector3d(0.2, -0.3, 0.9).normalized();
+    const Eigen::Matrix3Xf normals = estimate_normals(flat_points(expected, 50, 4), 1, {});
+    for (const Eigen::Vector3f& normal : normals.colwise()) {
+        ASSERT_GT(normal.dot(expected.cast<float>()), 0.999F);
+    }
+}
+
+TEST(Normals, AreTheLeastPrincipalDirectionsOfTheNeighbours) {
+    constexpr int kNeighbours = 9;
+    const Points points = test::random_box(150, 6);
+    const Eigen::Matrix3Xf normals = estimate_normals(points, kNeighbours, {});
+    for (Eigen::Index i = 0; i < points.cols(); ++i) {
+        std::vector<Eigen::Index> order(static_cast<std::size_t>(points.cols()));
+        std::iota(order.begin(), order.end(), 0);
+        std::ranges::sort(order, {}, [&](Eigen::Index k) {
+            return (points.col(k) - points.col(i)).squaredNorm();
+        });
+        Points near(3, kNeighbours);
+        for (int k = 0; k < kNeighbours; ++k) {
+            near.col(k) = points.col(order[static_cast<std::size_t>(k)]);
+        }
+        near.colwise() -= near.rowwise().mean().eval();
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(near * near.transpose());
+        const Eigen::Vector3d expected = solver.eigenvectors().col(0);
+        ASSERT_GT(std::abs(normals.col(i).cast<double>().dot(expected)), 0.999);
+    }
+}
 
 }  // namespace
 }  // namespace lpf

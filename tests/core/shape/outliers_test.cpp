@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "tests/core/clouds.h"
@@ -113,6 +115,53 @@ TEST(Duplicates, KeepTheFirstOfEachPlace) {
     Points points(3, 5);
     points << 2, 1, 2, 1, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0;
     EXPECT_EQ(find_duplicates(points), (Flags{0, 0, 1, 1, 1}));
+}
+
+/// The definition: logarithms of the mean distances to eight others, with a robust deviation.
+std::vector<std::uint8_t> outliers_by_definition(const Points& points, double deviations) {
+    std::vector<double> logs;
+    for (Eigen::Index i = 0; i < points.cols(); ++i) {
+        std::vector<double> distances;
+        for (Eigen::Index k = 0; k < points.cols(); ++k) {
+            if (k != i) distances.push_back((points.col(i) - points.col(k)).norm());
+        }
+        std::partial_sort(distances.begin(), distances.begin() + 8, distances.end());
+        logs.push_back(std::log(std::accumulate(distances.begin(), distances.begin() + 8, 0.0)));
+    }
+    const auto median = [](std::vector<double> values) {
+        std::sort(values.begin(), values.end());
+        return values[values.size() / 2];
+    };
+    const double centre = median(logs);
+    std::vector<double> off;
+    for (const double value : logs) off.push_back(std::abs(value - centre));
+    const double limit = centre + deviations * std::max(0.2, 1.4826 * median(off));
+    std::vector<std::uint8_t> result;
+    for (const double value : logs) result.push_back(value > limit);
+    return result;
+}
+
+TEST(Outliers, AgreeWithTheirDefinition) {
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        Points points = test::random_box(300, seed, -1, 1);
+        const auto power = static_cast<double>(seed);
+        for (auto column : points.colwise()) column *= std::pow(column.norm(), power);
+        for (const double deviations : {0.5, 1.0, 1.5, 2.0, 3.0}) {
+            EXPECT_EQ(find_outliers(points, deviations, {}),
+                      outliers_by_definition(points, deviations))
+                << "deviations " << deviations << ", power " << power;
+        }
+    }
+}
+
+TEST(Outliers, AreSeenBesideAHeapOfEqualPoints) {
+    Points points(3, 161);
+    points.leftCols(100).colwise() = Eigen::Vector3d(0.5, 0.5, 0.5);  // most of the cloud
+    points.middleCols(100, 60) = test::random_box(60, 5);
+    points.col(160) << 9, 9, 9;
+    const std::vector<std::uint8_t> found = find_outliers(points, 4.0, {});
+    EXPECT_EQ(std::count(found.begin(), found.end(), 1), 1);
+    EXPECT_EQ(found.back(), 1);
 }
 
 }  // namespace

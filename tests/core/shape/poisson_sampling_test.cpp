@@ -183,5 +183,33 @@ TEST_F(TriangleSampling, DependsOnTheSeedAlone) {
     EXPECT_NE(sample_triangles(vertices, triangles, 100, 7).leftCols(300), first.leftCols(300));
 }
 
+TEST(TriangleSamples, RoundsUpAndDownWithoutPreference) {
+    Points corners(3, 3);
+    corners << 0, 1, 0, 0, 0, 1, 0, 0, 0;
+    Triangles triangle(3, 1);
+    triangle << 0, 1, 2;
+    double total = 0;
+    for (std::uint64_t seed = 0; seed < 400; ++seed) {
+        const auto count = sample_triangles(corners, triangle, 5.0, seed).cols();  // 2.5 expected
+        EXPECT_TRUE(count == 2 || count == 3);
+        total += static_cast<double>(count);
+    }
+    EXPECT_NEAR(total / 400, 2.5, 0.1);
+}
+
+TEST(TriangleSamples, DrawsOtherPlacesInEveryTriangle) {
+    Points corners(3, 6);
+    corners << 0, 1, 0, 0, 1, 0,  //
+        0, 0, 1, 0, 0, 1,         //
+        0, 0, 0, 5, 5, 5;
+    Triangles triangles(3, 2);
+    triangles << 0, 3, 1, 4, 2, 5;
+    const Points samples = sample_triangles(corners, triangles, 40.0, 7);
+    ASSERT_EQ(samples.cols(), 40);
+    const Eigen::Vector2d low = samples.col(0).head<2>();
+    const Eigen::Vector2d high = samples.col(20).head<2>();
+    EXPECT_GT((low - high).norm(), 1e-9) << "the second triangle repeats the first";
+}
+
 }  // namespace
 }  // namespace lpf
