@@ -141,6 +141,40 @@ TEST(JointLoop, FinalCodesSolveTheLassoOfTheFinalPoses) {
     }
 }
 
+TEST(JointLoop, LearnsOnASampleOfTheLpfsWithTheirSharesOfLambda) {
+    const Shape shape = plate();
+    AnalysisParams params = params_for_plate();
+    params.learning_sample = 60;
+    FieldSet fields(shape, params, {});
+    const std::vector<std::size_t> drawn = fields.draw_sample(60, params.random_seed);
+    FieldSample sample{fields.probe_sample(drawn, {}),
+                       3 * static_cast<std::size_t>(fields.pattern().padded_size()),
+                       {}};
+    for (const std::size_t j : drawn) sample.lambda_share.push_back(fields.lambda_share(j));
+    Dictionary expected = draw_dictionary(fields.pattern(), 6, sample, params.random_seed);
+    SparseCodes codes(sample.count(), 6);
+    learn_dictionary(sample, {static_cast<float>(params.lambda)}, params.learning_rounds,
+                     params.random_seed, expected, codes, {});
+    const AnalysisResult result = analyze(fields, params, {});
+    for (int k = 0; k < 6; ++k) {
+        EXPECT_TRUE(std::ranges::equal(result.dictionary.atom(k), expected.atom(k)));
+    }
+}
+
+TEST(JointLoop, DebiasesTheLastCodesOnly) {
+    const Shape shape = plate();
+    AnalysisParams params = params_for_plate();
+    params.iterations = 2;
+    const AnalysisResult plain = analyze(shape, params, {});
+    params.debias = true;
+    const AnalysisResult debiased = analyze(shape, params, {});
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(debiased.energy[i].learning, plain.energy[i].learning);
+        EXPECT_EQ(debiased.energy[i].pose, plain.energy[i].pose);
+    }
+    EXPECT_NE(debiased.residuals, plain.residuals);
+}
+
 TEST(AnalysisLimits, AreThoseOfTheDocumentation) {
     const auto accepts = [](const std::function<void(AnalysisParams&)>& set) {
         AnalysisParams params;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <utility>
 
 #include "core/base/error.h"
 #include "tests/support/shapes.h"
@@ -22,8 +23,10 @@ class ProposalsOf : public testing::Test {
 protected:
     ProposalsOf() {
         const Points sheet = test::make_open_sheet({.points = 1200, .noise = 0.01}).points;
-        shape.cloud.points.resize(3, sheet.cols() + 3);
-        shape.cloud.points << sheet, 9 * Eigen::Matrix3d::Identity();
+        const Points sparse = 0.25 * test::make_plane({.points = 11, .seed = 5}).points;
+        shape.cloud.points.resize(3, sheet.cols() + 14);
+        shape.cloud.points << sheet, sparse.colwise() + Vector3d(0, 0, 5),
+            9 * Eigen::Matrix3d::Identity();
         params.analysis.radius = 0.35;
         params.analysis.iterations = 1;
         params.analysis.atoms = 6;
@@ -63,6 +66,9 @@ protected:
         }
         return result;
     }
+
+    [[nodiscard]] std::vector<std::size_t> supported(const Candidates& all, double spacing,
+                                                     int& near_the_limit) const;
 
     Shape shape;
     ResampleParams params;
@@ -115,20 +121,10 @@ TEST_F(ProposalsOf, LieCloserThanTheSpacingWhereTheNodesDoNot) {
     EXPECT_GT(2 * to_the_rim, checked);
 }
 
-TEST_F(ProposalsOf, EndWhereNoPointSupportsThem) {
-    params.support = 0.06;
-    const double spacing = 0.1;
-    params.analysis.radius = 0.35;
-    params.target_spacing = 1.0;
-    const Candidates all = [&] {
-        ResampleParams everywhere = params;
-        everywhere.support = 0;
-        return propose(*fields, analysis, everywhere, spacing, {});
-    }();
-    const Candidates supported = proposals(spacing);
-    EXPECT_LT(supported.size(), all.size());
+/// How many places of each LPF have a target point as near as the shape is known to go on.
+std::vector<std::size_t> ProposalsOf::supported(const Candidates& all, double spacing,
+                                                int& near_the_limit) const {
     std::vector<std::size_t> expected(fields->size(), 0);
-    int near_the_limit = 0;
     fields->for_each_target("", {}, [&](std::size_t j, FieldSet::Worker& worker, std::size_t) {
         const TargetArea& target = worker.probe.target;
         if (fields->dimensions[j] == kTooFewPoints) {
@@ -137,7 +133,7 @@ TEST_F(ProposalsOf, EndWhereNoPointSupportsThem) {
         }
         const double local =
             std::min(0.5, 1.2 * std::sqrt(std::numbers::pi / static_cast<double>(target.size)));
-        const double limit = std::max({0.06 / 0.35, spacing / 2 / 0.35, local});
+        const double limit = std::max({params.support / 0.35, spacing / 2 / 0.35, local});
         for (const Vector3f& place : of_field(all, j)) {
             double least = 1e30;
             for (std::size_t i = 0; i < target.size; ++i) {
@@ -148,12 +144,26 @@ TEST_F(ProposalsOf, EndWhereNoPointSupportsThem) {
             expected[j] += least <= limit;
         }
     });
-    int apart = 0;
-    for (std::size_t j = 0; j < fields->size(); ++j) {
-        const auto found = std::ranges::count(supported.field, static_cast<std::uint32_t>(j));
-        apart += std::abs(static_cast<int>(found) - static_cast<int>(expected[j]));
+    return expected;
+}
+
+TEST_F(ProposalsOf, EndWhereNoPointSupportsThem) {
+    for (const auto& [support, spacing] :
+         {std::pair(0.06, 0.1), std::pair(0.14, 0.1), std::pair(0.06, 0.3)}) {
+        params.support = 0;
+        const Candidates all = proposals(spacing);
+        params.support = support;
+        const Candidates found = proposals(spacing);
+        EXPECT_LT(found.size(), all.size());
+        int near_the_limit = 0;
+        const std::vector<std::size_t> expected = supported(all, spacing, near_the_limit);
+        int apart = 0;
+        for (std::size_t j = 0; j < fields->size(); ++j) {
+            const auto count = std::ranges::count(found.field, static_cast<std::uint32_t>(j));
+            apart += std::abs(static_cast<int>(count) - static_cast<int>(expected[j]));
+        }
+        EXPECT_LE(apart, near_the_limit) << "support " << support << ", spacing " << spacing;
     }
-    EXPECT_LE(apart, near_the_limit);
 }
 
 TEST_F(ProposalsOf, PutBackTheDetailAskedFor) {
