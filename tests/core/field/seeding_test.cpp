@@ -110,9 +110,12 @@ TEST(Seeding, DoesNotDependOnTheThreads) {
 }
 
 TEST(Seeding, CoversEveryPointWithinTheSpacingOfASeed) {
-    // The least of them is too thin for the smallest radius, and too thick to be taken for noise.
-    for (const double gap : {0.25 * kRadius, 0.4 * kRadius, kRadius}) {
-        const Points points = test::make_thin_plate({.points = 40000, .noise = 0.001}, gap).points;
+    // A solid block suits no radius: there, the smallest is taken.
+    const std::vector<Points> clouds = {
+        test::make_thin_plate({.points = 12000, .noise = 0.001}, 0.4 * kRadius).points,
+        test::make_thin_plate({.points = 12000, .noise = 0.001}, kRadius).points,
+        test::random_box(20000, 3, 0.0, 0.6)};
+    for (const Points& points : clouds) {
         const std::vector<Frame> seeds = seeds_of(points, 0.0015);
         for (Eigen::Index i = 0; i < points.cols(); i += 5) {
             ASSERT_TRUE(std::ranges::any_of(seeds,
@@ -120,7 +123,7 @@ TEST(Seeding, CoversEveryPointWithinTheSpacingOfASeed) {
                                                 return (points.col(i) - seed.centre).norm() <=
                                                        0.5 * seed.radius * (1 + 1e-9);
                                             }))
-                << "gap " << gap;
+                << "point " << i << " of " << points.cols();
         }
     }
 }
