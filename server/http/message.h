@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,11 +31,13 @@ using PartSink = std::function<bool(const Part&)>;
 /// A request as the handlers see it. The body is not in memory: a handler streams it.
 struct Request {
     std::string method;
-    std::string path;   ///< percent-decoded, without the query
-    Fields query;       ///< percent-decoded
-    Fields headers;     ///< names in lower case
-    std::string id;     ///< X-Request-Id, the client's if it is well formed; empty otherwise
-    std::string route;  ///< pattern of the route that was found, for logs and metrics
+    std::string path;    ///< percent-decoded, without the query
+    Fields query;        ///< percent-decoded
+    Fields headers;      ///< names in lower case
+    std::string id;      ///< X-Request-Id, the client's if it is well formed; empty otherwise
+    std::string route;   ///< pattern of the route that was found, for logs and metrics
+    std::string client;  ///< address of the peer, for limits; never logged
+    std::string key;     ///< name of the API key that the request showed; empty without keys
     std::vector<std::string> path_parameters;  ///< what the {} of the route matched, in order
 
     std::function<bool(const BodySink&)> read_body;
@@ -49,6 +52,17 @@ struct Request {
     [[nodiscard]] std::optional<std::string> query_value(std::string_view name) const;
 };
 
+/// A body that grows while the client reads it, such as an event stream. Asked from one thread.
+class Feed {
+public:
+    virtual ~Feed() = default;
+
+    /// What there is to send now; empty if there is nothing new. Returns at once.
+    virtual std::string next() = 0;
+    /// True when nothing will come any more: what next() gave is the rest.
+    [[nodiscard]] virtual bool ended() const = 0;
+};
+
 /// A part of a file that is sent as a body without loading it.
 struct FileSlice {
     std::filesystem::path path;
@@ -61,6 +75,7 @@ struct Response {
     std::string content_type;
     std::string body;
     std::optional<FileSlice> file;  ///< instead of `body`
+    std::shared_ptr<Feed> feed;     ///< instead of `body`: sent until it has ended
     Fields headers;
 
     /// Adds a header, or replaces the one of this name.
