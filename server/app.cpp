@@ -64,7 +64,7 @@ App::App(Config config, Log& log)
       runner_(storage_, {config_.limits, config_.threads, version()}),
       queue_(storage_, log_, telemetry_, queue_options(config_),
              [this](RunningJob& job) { return runner_.run(job); }),
-      services_{config_, data_, storage_, queue_, log_, telemetry_},
+      services_{config_, data_, storage_, queue_, events_, log_, telemetry_},
       admin_(services_, admin_routes(services_), admin_listener(config_)),
       site_(services_, public_routes(services_), public_listener(config_)) {}
 

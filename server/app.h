@@ -7,6 +7,7 @@
 
 #include "server/config.h"
 #include "server/file_blob_store.h"
+#include "server/job_events.h"
 #include "server/job_queue.h"
 #include "server/runner.h"
 #include "server/services.h"
@@ -44,6 +45,7 @@ private:
     SqliteJobStore books_;
     Storage storage_;
     Runner runner_;
+    JobEvents events_;
     JobQueue queue_;
     Services services_;
     Site admin_;

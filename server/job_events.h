@@ -4,6 +4,7 @@
 #include <deque>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,8 +21,13 @@ struct JobEvent {
 
 /// The latest events of each job that is at work or ended not long ago, so that a client that was
 /// cut off can go on where it was. Any number of threads may call.
+///
+/// Memory is bounded: of each job the last progress alone and a few dozen of the other events are
+/// kept, and of jobs that ended so many. What is not here any more, a reader finds in the books.
 class JobEvents {
 public:
+    JobEvents();
+
     /// A job has a new status; for one that has ended, `end` follows.
     void status(const StatusInfo& info);
     /// A job has come further (at least once a second while it runs).
@@ -29,10 +35,18 @@ public:
     /// Something to know about a job: a warning, a phase.
     void log(const std::string& job_id, const std::string& code, const std::string& detail);
 
-    /// Events of a job that are newer than `last`, oldest first; empty if there are none.
+    /// Events of a job that are newer than `last`, oldest first; empty if there are none. A `last`
+    /// that was never given out hides nothing.
     [[nodiscard]] std::vector<JobEvent> after(const std::string& job_id, std::uint64_t last) const;
 
-    /// Lets go of jobs that ended longer ago than a few minutes.
+    /// True if anything is known of a job.
+    [[nodiscard]] bool knows(const std::string& job_id) const;
+
+    /// What one reader is told about a job of which nothing is known here: its status and, if it
+    /// has ended, `end`. The ids are new, and nothing is kept.
+    [[nodiscard]] std::vector<JobEvent> tell(const StatusInfo& info);
+
+    /// Lets go of jobs that ended longer ago than a few minutes. Every change does so now and then.
     void forget_old();
 
 private:
@@ -41,10 +55,15 @@ private:
         UnixMillis ended = 0;
     };
     void add(Story& story, std::string name, std::string data);
+    [[nodiscard]] std::uint64_t next_id();
+    [[nodiscard]] Story& story_of(const std::string& job_id);
+    void forget_before(UnixMillis time);
+    void make_room();
 
     mutable std::mutex mutex_;
-    std::map<std::string, Story> stories_;
+    std::map<std::string, Story> stories_;  // by job, and so by age: identifiers begin with a time
     std::uint64_t last_id_ = 0;
+    UnixMillis cleaned_ = 0;
 };
 
 }  // namespace lpf::server

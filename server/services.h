@@ -6,6 +6,7 @@
 #include "server/clock.h"
 #include "server/config.h"
 #include "server/data_dir.h"
+#include "server/job_events.h"
 #include "server/job_queue.h"
 #include "server/log.h"
 #include "server/storage.h"
@@ -19,6 +20,7 @@ struct Services {
     const DataDir& data;
     Storage& storage;
     JobQueue& queue;
+    JobEvents& events;
     Log& log;
     Telemetry& telemetry;
 

@@ -31,6 +31,9 @@ http::Response list_jobs(Services&, http::Request&);
 http::Response get_job(Services&, http::Request&);
 http::Response dismiss_job(Services&, http::Request&);
 
+// events.cpp
+http::Response get_events(Services&, http::Request&);
+
 // results.cpp
 http::Response list_results(Services&, http::Request&);
 http::Response get_points(Services&, http::Request&);
