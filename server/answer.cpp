@@ -79,8 +79,12 @@ http::Response problem_response(Problem problem, const http::Request& request) {
 
 http::Response send_blob(const http::Request& request, const BlobStore& blobs,
                          const FileHead& head) {
-    const auto path = blobs.local_file(head.sha256);
-    const std::uint64_t size = blobs.size(head.sha256).value_or(0);
+    return send_file(request, blobs.local_file(head.sha256), head);
+}
+
+http::Response send_file(const http::Request& request, const std::filesystem::path& path,
+                         const FileHead& head) {
+    const std::uint64_t size = std::filesystem::file_size(path);
     http::Response response = file_response(head);
     ByteRange range;
     if (open_answer(request, head, size, response, range))

@@ -27,6 +27,10 @@ struct FileHead {
 [[nodiscard]] http::Response send_blob(const http::Request& request, const BlobStore& blobs,
                                        const FileHead& head);
 
+/// The same for any file. `head.sha256` may be any name that stands for exactly these bytes.
+[[nodiscard]] http::Response send_file(const http::Request& request,
+                                       const std::filesystem::path& path, const FileHead& head);
+
 /// The same for bytes in memory.
 [[nodiscard]] http::Response send_bytes(const http::Request& request, std::string bytes,
                                         const FileHead& head);

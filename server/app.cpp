@@ -62,9 +62,10 @@ App::App(Config config, Log& log)
       books_(data_.path() / "jobs.sqlite"),
       storage_(books_, blobs_),
       runner_(storage_, {config_.limits, config_.threads, version()}),
+      previews_(data_.path() / "previews"),
       queue_(storage_, log_, telemetry_, queue_options(config_),
              [this](RunningJob& job) { return runner_.run(job); }),
-      services_{config_, data_, storage_, queue_, events_, log_, telemetry_},
+      services_{config_, data_, storage_, queue_, events_, previews_, log_, telemetry_},
       admin_(services_, admin_routes(services_), admin_listener(config_)),
       site_(services_, public_routes(services_), public_listener(config_)) {}
 

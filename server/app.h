@@ -9,6 +9,7 @@
 #include "server/file_blob_store.h"
 #include "server/job_events.h"
 #include "server/job_queue.h"
+#include "server/preview_cache.h"
 #include "server/runner.h"
 #include "server/services.h"
 #include "server/site.h"
@@ -46,6 +47,7 @@ private:
     Storage storage_;
     Runner runner_;
     JobEvents events_;
+    PreviewCache previews_;
     JobQueue queue_;
     Services services_;
     Site admin_;

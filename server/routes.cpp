@@ -24,11 +24,13 @@ Router public_routes(Services& services) {
             {"GET", "/v1/shapes/{id}", to(get_shape)},
             {"DELETE", "/v1/shapes/{id}", to(delete_shape)},
             {"GET", "/v1/shapes/{id}/data", to(get_shape_data)},
+            {"GET", "/v1/shapes/{id}/preview", to(get_shape_preview)},
 
             {"GET", "/v1/jobs", to(list_jobs)},
             {"GET", "/v1/jobs/{id}", to(get_job)},
             {"DELETE", "/v1/jobs/{id}", to(dismiss_job)},
             {"GET", "/v1/jobs/{id}/events", to(get_events)},
+            {"GET", "/v1/jobs/{id}/preview", to(get_job_preview)},
             {"GET", "/v1/jobs/{id}/results", to(list_results)},
             {"GET", "/v1/jobs/{id}/results/points", to(get_points)},
             {"GET", "/v1/jobs/{id}/results/dictionary", to(get_dictionary_result)},

@@ -9,6 +9,7 @@
 #include "server/job_events.h"
 #include "server/job_queue.h"
 #include "server/log.h"
+#include "server/preview_cache.h"
 #include "server/storage.h"
 #include "server/telemetry.h"
 
@@ -21,6 +22,7 @@ struct Services {
     Storage& storage;
     JobQueue& queue;
     JobEvents& events;
+    PreviewCache& previews;
     Log& log;
     Telemetry& telemetry;
 

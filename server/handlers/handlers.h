@@ -34,6 +34,10 @@ http::Response dismiss_job(Services&, http::Request&);
 // events.cpp
 http::Response get_events(Services&, http::Request&);
 
+// preview.cpp
+http::Response get_job_preview(Services&, http::Request&);
+http::Response get_shape_preview(Services&, http::Request&);
+
 // results.cpp
 http::Response list_results(Services&, http::Request&);
 http::Response get_points(Services&, http::Request&);
