@@ -182,6 +182,28 @@ std::optional<std::string> header_parameter(std::string_view header, std::string
     return std::nullopt;
 }
 
+std::optional<std::string> extended_value(std::string_view text) {
+    constexpr std::string_view kCharset = "utf-8'";
+    if (lower(text.substr(0, kCharset.size())) != kCharset) return std::nullopt;
+    const std::size_t quote = text.find('\'', kCharset.size());  // a language may stand before it
+    if (quote == std::string_view::npos) return std::nullopt;
+    std::string result;
+    for (std::size_t i = quote + 1; i < text.size(); ++i) {
+        if (text[i] != '%') {
+            result += text[i];
+            continue;
+        }
+        unsigned value = 0;
+        const std::string_view digits = text.substr(i + 1, 2);
+        const char* end = digits.data() + digits.size();
+        const auto [stop, error] = std::from_chars(digits.data(), end, value, 16);
+        if (digits.size() < 2 || error != std::errc{} || stop != end) return std::nullopt;
+        result += static_cast<char>(value);
+        i += 2;
+    }
+    return result;
+}
+
 ByteRange parse_range(std::string_view header, std::uint64_t size) {
     constexpr std::string_view kUnit = "bytes=";
     const std::string text = lower(trim(header));

@@ -31,6 +31,10 @@ namespace lpf {
 [[nodiscard]] std::optional<std::string> header_parameter(std::string_view header,
                                                           std::string_view name);
 
+/// The text of an extended parameter (RFC 8187) such as `UTF-8''na%C3%AFve`; nothing if it is
+/// malformed or in another character set.
+[[nodiscard]] std::optional<std::string> extended_value(std::string_view text);
+
 /// What a Range header (RFC 9110, Sec. 14) asks of `size` bytes.
 struct ByteRange {
     enum class Kind { Whole, Part, Unsatisfiable } kind = Kind::Whole;
