@@ -88,16 +88,38 @@ void Telemetry::count_job(std::string_view process, std::string_view status, dou
     jobs_[{std::string(process), std::string(status)}].observe(seconds);
 }
 
+void Telemetry::count_problem(std::string_view code) {
+    const std::lock_guard lock(mutex_);
+    ++problems_[std::string(code)];
+}
+
+void Telemetry::observe_queue_wait(double seconds) {
+    const std::lock_guard lock(mutex_);
+    queue_wait_.observe(seconds);
+}
+
+void Telemetry::observe_phase(std::string_view phase, double seconds) {
+    const std::lock_guard lock(mutex_);
+    phases_[std::string(phase)].observe(seconds);
+}
+
 void Telemetry::observe_cancel(double seconds) {
     const std::lock_guard lock(mutex_);
     cancel_.observe(seconds);
 }
 
-std::string Telemetry::text(const Gauges& gauges) const {
+void Telemetry::count_lease_loss() {
     const std::lock_guard lock(mutex_);
-    std::string out = head("lpf_build_info", "gauge", "The program that runs.") +
-                      line("lpf_build_info", label("version", version_), 1) + gauges_text(gauges);
-    out += head("lpf_http_requests_total", "counter", "Requests answered.");
+    ++lease_losses_;
+}
+
+void Telemetry::add_event_streams(int change) {
+    const std::lock_guard lock(mutex_);
+    event_streams_ += change;
+}
+
+std::string Telemetry::http_text() const {
+    std::string out = head("lpf_http_requests_total", "counter", "Requests answered.");
     for (const auto& [key, count] : requests_) {
         const auto& [method, route, status] = key;
         out += line("lpf_http_requests_total",
@@ -108,16 +130,40 @@ std::string Telemetry::text(const Gauges& gauges) const {
     out += head("lpf_http_request_seconds", "histogram", "Time until the answer was made.");
     for (const auto& [route, histogram] : request_seconds_)
         out += histogram.text("lpf_http_request_seconds", label("route", route));
+    out += head("lpf_problems_total", "counter", "Problem documents sent, by code.");
+    for (const auto& [code, count] : problems_)
+        out += line("lpf_problems_total", label("code", code), static_cast<double>(count));
+    out += single("lpf_event_streams", "gauge", "Event streams that clients follow.",
+                  static_cast<double>(event_streams_));
     out += single("lpf_http_received_bytes_total", "counter", "Bytes of bodies received.",
                   static_cast<double>(received_));
-    out += single("lpf_http_sent_bytes_total", "counter", "Bytes of bodies sent.",
-                  static_cast<double>(sent_));
-    out += head("lpf_job_seconds", "histogram", "Time that workers spent on jobs.");
+    return out + single("lpf_http_sent_bytes_total", "counter", "Bytes of bodies sent.",
+                        static_cast<double>(sent_));
+}
+
+std::string Telemetry::jobs_text() const {
+    std::string out = head("lpf_job_seconds", "histogram", "Time that workers spent on jobs.");
     for (const auto& [key, histogram] : jobs_)
         out += histogram.text("lpf_job_seconds",
                               label("process", key.first) + "," + label("status", key.second));
-    out += head("lpf_cancel_seconds", "histogram", "Time from a dismissal to the end of the work.");
-    return out + cancel_.text("lpf_cancel_seconds", "");
+    out += head("lpf_phase_seconds", "histogram", "Time that jobs spent in their phases.");
+    for (const auto& [phase, histogram] : phases_)
+        out += histogram.text("lpf_phase_seconds", label("phase", phase));
+    out += head("lpf_queue_wait_seconds", "histogram", "Time that jobs waited for a worker.") +
+           queue_wait_.text("lpf_queue_wait_seconds", "");
+    out +=
+        head("lpf_cancel_seconds", "histogram", "Time from a dismissal to the end of the work.") +
+        cancel_.text("lpf_cancel_seconds", "");
+    return out + single("lpf_lease_losses_total", "counter",
+                        "Jobs taken from a worker that did not renew its lease in time.",
+                        static_cast<double>(lease_losses_));
+}
+
+std::string Telemetry::text(const Gauges& gauges) const {
+    const std::lock_guard lock(mutex_);
+    return head("lpf_build_info", "gauge", "The program that runs.") +
+           line("lpf_build_info", label("version", version_), 1) + gauges_text(gauges) +
+           http_text() + jobs_text();
 }
 
 }  // namespace lpf::server

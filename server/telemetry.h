@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
@@ -45,19 +46,35 @@ public:
     void count_request(const std::string& method, const std::string& route, int status,
                        std::uint64_t bytes_sent, double seconds);
     void count_received(std::uint64_t bytes);
+    /// A problem document that was sent, by its code.
+    void count_problem(std::string_view code);
     void count_job(std::string_view process, std::string_view status, double seconds);
+    /// Time between the acceptance of a job and its start.
+    void observe_queue_wait(double seconds);
+    /// Time that a job spent in one of its phases.
+    void observe_phase(std::string_view phase, double seconds);
     /// Time between a cancellation and the end of the job's work.
     void observe_cancel(double seconds);
+    /// A job that was taken from a worker here which did not renew its lease in time.
+    void count_lease_loss();
+    /// Event streams that were opened (1) or ended (-1).
+    void add_event_streams(int change);
+    /// A worker lost its job because its lease ran out.
+    void count_lease_loss();
 
     [[nodiscard]] std::string text(const Gauges& gauges) const;
 
 private:
+    [[nodiscard]] std::string http_text() const;
+    [[nodiscard]] std::string jobs_text() const;
+
     mutable std::mutex mutex_;
     std::string version_;
     std::map<std::tuple<std::string, std::string, int>, std::uint64_t> requests_;
     std::map<std::string, Histogram> request_seconds_;               // by route
     std::map<std::pair<std::string, std::string>, Histogram> jobs_;  // by process and status
     Histogram cancel_;
+    std::uint64_t lease_losses_ = 0;
     std::uint64_t received_ = 0;
     std::uint64_t sent_ = 0;
 };
