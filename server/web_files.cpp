@@ -40,6 +40,14 @@ std::optional<fs::path> web_file(const fs::path& folder, std::string_view path) 
     return is_inside(fs::canonical(folder, error), real) ? std::optional(real) : std::nullopt;
 }
 
+fs::path web_dir_of(const fs::path& executable) {
+    std::error_code error;
+    const fs::path real = fs::canonical(executable, error);
+    if (error) return {};
+    fs::path folder = real.parent_path().parent_path() / "share" / "lpf-server" / "web";
+    return fs::is_regular_file(folder / "index.html", error) ? folder : fs::path();
+}
+
 std::string_view web_type(const fs::path& file) {
     using Row = std::pair<std::string_view, std::string_view>;
     constexpr std::array<Row, 12> kTypes{{{".html", "text/html; charset=utf-8"},

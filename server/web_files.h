@@ -13,6 +13,10 @@ namespace lpf::server {
 [[nodiscard]] std::optional<std::filesystem::path> web_file(const std::filesystem::path& folder,
                                                             std::string_view path);
 
+/// The folder in which the build or an installation puts the page, share/lpf-server/web beside the
+/// bin/ of the executable; empty if there is none.
+[[nodiscard]] std::filesystem::path web_dir_of(const std::filesystem::path& executable);
+
 /// Media type by the ending of a name.
 [[nodiscard]] std::string_view web_type(const std::filesystem::path& file);
 

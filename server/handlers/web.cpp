@@ -24,11 +24,22 @@ http::Response plain_page() {
     return response;
 }
 
+/// The folder that was named, or else the one that was built with this program.
+const std::filesystem::path& web_dir(const Config& config) {
+    static const std::filesystem::path built = web_dir_of("/proc/self/exe");
+    return config.web_dir.empty() ? built : config.web_dir;
+}
+
+/// Files below /assets/ have a hash of their content in their names.
+const char* caching(std::string_view path) {
+    return path.starts_with("/assets/") ? "public, max-age=31536000, immutable" : "no-cache";
+}
+
 }  // namespace
 
 http::Response get_web_file(Services& services, http::Request& request) {
     request.route = "web";
-    const auto file = web_file(services.config.web_dir, request.path);
+    const auto file = web_file(web_dir(services.config), request.path);
     if (!file && request.path == "/") return plain_page();
     if (!file) {
         throw ProblemException(ProblemCode::NotFound,
@@ -39,7 +50,7 @@ http::Response get_web_file(Services& services, http::Request& request) {
     response.content_type = std::string(web_type(*file));
     response.file = http::FileSlice{*file, 0, std::filesystem::file_size(*file)};
     response.set("Content-Security-Policy", kPagePolicy);
-    response.set("Cache-Control", "no-cache");
+    response.set("Cache-Control", caching(request.path));
     return response;
 }
 

@@ -43,6 +43,19 @@ TEST_F(WebFiles, LeavesTheFolderOnNoWay) {
     }
 }
 
+TEST_F(WebFiles, ThePageIsFoundBesideTheProgram) {
+    const auto root = folder_.path() / "installed";
+    const auto page = root / "share" / "lpf-server" / "web";
+    std::filesystem::create_directories(root / "bin");
+    std::filesystem::create_directories(page);
+    const auto program = root / "bin" / "lpf-server";
+    std::ofstream(program) << "program";
+    EXPECT_TRUE(web_dir_of(program).empty()) << "a folder without index.html is no page";
+    std::ofstream(page / "index.html") << "page";
+    EXPECT_EQ(web_dir_of(program), std::filesystem::canonical(page));
+    EXPECT_TRUE(web_dir_of(root / "bin" / "missing").empty());
+}
+
 TEST_F(WebFiles, WithoutAFolderThereIsNothing) { EXPECT_FALSE(web_file({}, "/")); }
 
 TEST_F(WebFiles, TypesFollowTheEnding) {

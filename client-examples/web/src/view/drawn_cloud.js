@@ -1,0 +1,56 @@
+import { BufferAttribute, BufferGeometry, Mesh, Points, Scene } from 'three';
+import { mesh_material, point_material } from './materials.js';
+import { quantile } from '../numbers.js';
+
+/** A cloud (or mesh) in a scene of its own. */
+export class DrawnCloud {
+    /** @param {import('../worker/cloud.js').Cloud} cloud */
+    constructor(cloud) {
+        this.cloud = cloud;
+        const geometry = new BufferGeometry();
+        geometry.setAttribute('position', new BufferAttribute(cloud.positions, 3));
+        this.tints_ = new BufferAttribute(new Uint8Array(cloud.count * 3), 3, true);
+        geometry.setAttribute('tint', this.tints_);
+        if (cloud.index) geometry.setIndex(new BufferAttribute(cloud.index, 1));
+        this.object = cloud.index
+            ? new Mesh(geometry, mesh_material()) : new Points(geometry, point_material());
+        this.object.frustumCulled = false;
+        this.scene = new Scene().add(this.object);
+        this.radius = this.reach_();
+        this.spacing_ = this.radius * Math.sqrt(4 * Math.PI / Math.max(1, cloud.count)) * 0.62;
+    }
+
+    /** @param {Uint8Array} tints red, green and blue of each point */
+    paint(tints) {
+        this.tints_.array.set(tints);
+        this.tints_.needsUpdate = true;
+    }
+
+    /** Lays the cloud where it is relative to the origin of another. */
+    place(origin) {
+        this.object.position.set(...this.cloud.origin.map((value, c) => value - origin[c]));
+    }
+
+    /** @param {number} focal pixels of a unit of length at distance 1 */
+    set_size(focal, pixelRatio) {
+        const { uniforms } = this.object.material;
+        if (!uniforms.size) return;
+        uniforms.size.value = this.spacing_ * focal;
+        uniforms.pixelRatio.value = pixelRatio;
+    }
+
+    dispose() {
+        this.object.geometry.dispose();
+        this.object.material.dispose();
+    }
+
+    /** How far nearly all points are from the middle. */
+    reach_() {
+        const p = this.cloud.positions;
+        const lengths = new Float32Array(this.cloud.count);
+        for (let i = 0; i < lengths.length; ++i) {
+            lengths[i] = Math.hypot(p[i * 3], p[i * 3 + 1], p[i * 3 + 2]);
+        }
+        return quantile(lengths, 0.995) || 1;
+    }
+}
