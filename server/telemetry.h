@@ -59,8 +59,6 @@ public:
     void count_lease_loss();
     /// Event streams that were opened (1) or ended (-1).
     void add_event_streams(int change);
-    /// A worker lost its job because its lease ran out.
-    void count_lease_loss();
 
     [[nodiscard]] std::string text(const Gauges& gauges) const;
 
