@@ -71,7 +71,11 @@ private:
     std::map<std::tuple<std::string, std::string, int>, std::uint64_t> requests_;
     std::map<std::string, Histogram> request_seconds_;               // by route
     std::map<std::pair<std::string, std::string>, Histogram> jobs_;  // by process and status
+    std::map<std::string, std::uint64_t> problems_;                  // by code
+    std::map<std::string, Histogram> phases_;                        // by name
+    Histogram queue_wait_;
     Histogram cancel_;
+    std::int64_t event_streams_ = 0;
     std::uint64_t lease_losses_ = 0;
     std::uint64_t received_ = 0;
     std::uint64_t sent_ = 0;
