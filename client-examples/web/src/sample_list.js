@@ -15,7 +15,9 @@ function draw(canvas, { make, noise }) {
         return { across: 0.83 * x - 0.55 * y + shake(), depth: 0.55 * x + 0.83 * y,
             up: z + shake(), paint };
     }).sort((a, b) => b.depth - a.depth);
-    const scale = canvas.width / 4.6;
+    const reach = Math.max(...dots.map(({ across, depth, up }) =>
+        Math.max(Math.abs(across), Math.abs(0.86 * up + 0.42 * depth))));
+    const scale = 0.43 * canvas.width / reach;
     for (const { across, depth, up, paint } of dots) {
         const [r, g, b] = paint_color(paint).map((v) => Math.round(v * (1 - 0.16 * (depth + 1))));
         context.fillStyle = `rgb(${r}, ${g}, ${b})`;

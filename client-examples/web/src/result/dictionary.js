@@ -46,16 +46,17 @@ export class DictionaryView {
     }
 
     button_(k, usage) {
-        const label = `Atom ${k + 1}, used by ${percent(usage)} of the fields`;
-        return element('button.atom', { type: 'button', 'aria-pressed': 'false', 'aria-label': label,
+        const unseen = (text) => element('span.hidden', {}, text);
+        return element('button.atom', { type: 'button', 'aria-pressed': 'false',
             onclick: (event) => {
                 const pressed = event.currentTarget.getAttribute('aria-pressed') === 'true';
                 this.mark(pressed ? null : k);
                 this.chosen_(pressed ? null : k);
             } },
         element('canvas', { width: 176, height: 176, 'aria-hidden': 'true' }),
-        element('span.atom-name', { 'aria-hidden': 'true' },
-            element('b', {}, String(k + 1)), element('span', {}, percent(usage))));
+        element('span.atom-name', {},
+            element('span', {}, unseen('Atom '), element('b', {}, String(k + 1))),
+            element('span', {}, unseen('used by '), percent(usage), unseen(' of the fields'))));
     }
 
     /** A few at a time, so that hundreds of atoms do not hold up the page. */

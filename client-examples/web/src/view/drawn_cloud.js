@@ -11,19 +11,25 @@ export class DrawnCloud {
         geometry.setAttribute('position', new BufferAttribute(cloud.positions, 3));
         this.tints_ = new BufferAttribute(new Uint8Array(cloud.count * 3), 3, true);
         geometry.setAttribute('tint', this.tints_);
+        geometry.setAttribute('normal', new BufferAttribute(new Int8Array(cloud.count * 3), 3, true));
         if (cloud.index) geometry.setIndex(new BufferAttribute(cloud.index, 1));
         this.object = cloud.index
             ? new Mesh(geometry, mesh_material()) : new Points(geometry, point_material());
         this.object.frustumCulled = false;
         this.scene = new Scene().add(this.object);
         this.radius = this.reach_();
-        this.spacing_ = this.radius * Math.sqrt(4 * Math.PI / Math.max(1, cloud.count)) * 0.62;
+        this.spacing_ = this.radius * Math.sqrt(4 * Math.PI / Math.max(1, cloud.count)) * 0.78;
     }
 
     /** @param {Uint8Array} tints red, green and blue of each point */
     paint(tints) {
         this.tints_.array.set(tints);
         this.tints_.needsUpdate = true;
+    }
+
+    /** @param {Int8Array} normals xyz of each point, of either sign */
+    light(normals) {
+        this.object.geometry.setAttribute('normal', new BufferAttribute(normals, 3, true));
     }
 
     /** Lays the cloud where it is relative to the origin of another. */

@@ -6,8 +6,11 @@ uniform float size;
 uniform float pixelRatio;
 varying vec3 v_tint;
 void main() {
-    v_tint = tint;
     vec4 seen = modelViewMatrix * vec4(position, 1.0);
+    // Without a normal (it is zero) there is no shading. Its sign means nothing.
+    vec3 towards = normalize(seen.xyz + vec3(-0.45, -0.6, 0.0) * length(seen.xyz));
+    float facing = abs(dot(normalize(normalMatrix * normal + 1e-9), towards));
+    v_tint = tint * (dot(normal, normal) > 0.0 ? 0.42 + 0.58 * facing : 1.0);
     gl_Position = projectionMatrix * seen;
     gl_PointSize = clamp(size / -seen.z, 1.5 * pixelRatio, 24.0 * pixelRatio);
 }`;
@@ -94,7 +97,7 @@ export function shade_material() {
         fragmentShader: SHADE_FRAGMENT,
         uniforms: {
             picture: { value: null }, depth: { value: null }, texel: { value: new Vector2() },
-            near: { value: 1 }, far: { value: 2 }, strength: { value: 90 },
+            near: { value: 1 }, far: { value: 2 }, strength: { value: 55 },
             background: { value: new Color() },
         },
         depthTest: false,

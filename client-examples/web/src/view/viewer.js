@@ -1,5 +1,6 @@
 import { Color, PerspectiveCamera } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { in_background } from '../background.js';
 import { DrawnCloud } from './drawn_cloud.js';
 import { orbit_by_keys } from './orbit_keys.js';
 import { Renderer } from './renderer.js';
@@ -31,9 +32,10 @@ export class Viewer {
     show(side, cloud) {
         this.clouds_[side]?.dispose();
         this.clouds_[side] = cloud && new DrawnCloud(cloud);
-        const origin = this.clouds_.before?.cloud.origin ?? cloud?.origin;
+        const origin = (this.clouds_.before ?? this.clouds_.after)?.cloud.origin;
         for (const drawn of Object.values(this.clouds_)) drawn?.place(origin);
         this.redraw();
+        if (cloud && !cloud.index) this.light_(this.clouds_[side]);
     }
 
     /** @returns {import('../worker/cloud.js').Cloud|undefined} */
@@ -91,6 +93,13 @@ export class Viewer {
             this.controls_.update();
             this.draw_();
         });
+    }
+
+    /** The form of points shows once they have normals, which take a moment. */
+    async light_(drawn) {
+        const { positions, count } = drawn.cloud;
+        drawn.light(await in_background('estimate_normals', { positions, count }));
+        this.redraw();
     }
 
     parts_() {

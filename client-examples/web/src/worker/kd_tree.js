@@ -1,3 +1,26 @@
+/** The nearest points so far, in the order of their distance. */
+class Best {
+    constructor(room) {
+        this.indices = new Int32Array(room).fill(-1);
+        this.squares = new Float64Array(room).fill(Infinity);
+    }
+
+    /** Square of the distance below which a point is of interest. */
+    get reach() {
+        return this.squares[this.squares.length - 1];
+    }
+
+    take(index, square) {
+        let at = this.squares.length - 1;
+        for (; at > 0 && this.squares[at - 1] > square; --at) {
+            this.squares[at] = this.squares[at - 1];
+            this.indices[at] = this.indices[at - 1];
+        }
+        this.squares[at] = square;
+        this.indices[at] = index;
+    }
+}
+
 /**
  * Nearest of many points in 3D. Written here because it has to work on flat typed arrays inside of
  * a worker; the kept libraries want one object a point.
@@ -15,9 +38,16 @@ export class KdTree {
      * @returns {{index: number, distance: number}} index -1 if there are no points
      */
     nearest(x, y, z) {
-        const best = { index: -1, square: Infinity };
+        const best = new Best(1);
         this.search_([x, y, z], 0, this.order.length, best);
-        return { index: best.index, distance: Math.sqrt(best.square) };
+        return { index: best.indices[0], distance: Math.sqrt(best.squares[0]) };
+    }
+
+    /** @returns {Int32Array} the k nearest points, nearest first; -1 where there are no more */
+    nearest_k(x, y, z, k) {
+        const best = new Best(k);
+        this.search_([x, y, z], 0, this.order.length, best);
+        return best.indices;
     }
 
     build_(low, high) {
@@ -77,11 +107,11 @@ export class KdTree {
         const dy = query[1] - this.points[at + 1];
         const dz = query[2] - this.points[at + 2];
         const square = dx * dx + dy * dy + dz * dz;
-        if (square < best.square) [best.index, best.square] = [this.order[mid], square];
+        if (square < best.reach) best.take(this.order[mid], square);
         const axis = this.axes[mid];
         const side = query[axis] - this.points[at + axis];
         const [first, second] = side < 0 ? [[low, mid], [mid + 1, high]] : [[mid + 1, high], [low, mid]];
         this.search_(query, ...first, best);
-        if (side * side < best.square) this.search_(query, ...second, best);
+        if (side * side < best.reach) this.search_(query, ...second, best);
     }
 }
