@@ -90,6 +90,18 @@ test('colours can be chosen, with a legend', async () => {
     assert.match(await page.textContent('#legend'), /surface/);
 });
 
+test('the view turns and zooms by keys', async () => {
+    const canvas = page.locator('#canvas');
+    const first = await canvas.screenshot();
+    await canvas.press('ArrowLeft');
+    await canvas.press('+');
+    await page.waitForTimeout(500);
+    assert.notDeepEqual(await canvas.screenshot(), first);
+    await canvas.press('0');
+    await page.waitForTimeout(500);
+    assert.deepEqual(await canvas.screenshot(), first, '0 brings back the first look');
+});
+
 test('the dictionary shows every atom by usage, and lights one up', async () => {
     await page.click('#tab-dictionary');
     const names = await page.$$eval('.atom', (atoms) => atoms.map((atom) => atom.textContent));

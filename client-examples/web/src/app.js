@@ -181,7 +181,7 @@ export class App {
         open_tab('result');
         this.progress.say('The result is there.');
         if (!cloud) await this.stage.color_by('dimension');
-        await this.dictionary.show(dictionary);
+        await this.dictionary.show(dictionary, fields);
     }
 
     async show_points_(cloud, report) {

@@ -10,6 +10,7 @@ export function open_tab(name) {
         tab.tabIndex = chosen ? 0 : -1;
         by_id(tab.getAttribute('aria-controls')).hidden = !chosen;
     }
+    by_id('side').scrollTop = 0;
 }
 
 /** Lets clicks and arrow keys choose tabs. @param {(name: string) => void} opened */

@@ -1,6 +1,7 @@
 const TURN = 0.6;
 const TILT = 0.62;
-const HEIGHT = 0.42;  // how high the largest displacement is drawn, in radii
+const FARTHEST = 1;     // no displacement is drawn longer than this, in radii
+const FULL_COLOR = 0.2;  // height of the deepest colour, in radii
 const MOST_POINTS = 900;
 
 /** The squares of a regular grid of points in a plane: four indices each. */
@@ -61,12 +62,16 @@ export class AtomDrawing {
         this.squares_ = pattern?.kind === 'grid' ? squares_of(patternPoints) : [];
     }
 
-    /** @param {HTMLCanvasElement} canvas square @param {Float32Array} atom xyz per pattern point */
-    draw(canvas, atom) {
+    /**
+     * @param {HTMLCanvasElement} canvas square
+     * @param {Float32Array} atom xyz per pattern point
+     * @param {number} strength coefficient at which it is drawn
+     */
+    draw(canvas, atom, strength) {
         const context = canvas.getContext('2d');
         const size = canvas.width;
         context.clearRect(0, 0, size, size);
-        const bent = this.bend_(atom);
+        const bent = this.bend_(atom, strength);
         const [cos, sin] = [Math.cos(TURN), Math.sin(TURN)];
         const seen = bent.map(([x, y, z]) => {
             const [across, depth] = [cos * x - sin * y, sin * x + cos * y];
@@ -77,8 +82,9 @@ export class AtomDrawing {
         else this.draw_dots_(context, bent, seen);
     }
 
-    bend_(atom) {
-        const scale = HEIGHT / largest(atom);
+    bend_(atom, strength) {
+        const most = FARTHEST / largest(atom);
+        const scale = Math.max(-most, Math.min(most, strength));
         const u = this.points_;
         return Array.from({ length: u.length / 3 }, (_, i) =>
             [0, 1, 2].map((c) => u[i * 3 + c] + scale * atom[i * 3 + c]));
@@ -91,13 +97,13 @@ export class AtomDrawing {
         context.lineWidth = Math.max(0.5, context.canvas.width / 400);
         for (const square of back_to_front) {
             const corners = square.map((i) => bent[i]);
-            const height = corners.reduce((sum, corner) => sum + corner[2], 0) / 4 / HEIGHT;
+            const height = corners.reduce((sum, corner) => sum + corner[2], 0) / 4 / FULL_COLOR;
             const light = light_of(corners);
             context.beginPath();
             for (const i of square) context.lineTo(seen[i][0], seen[i][1]);
             context.closePath();
-            context.fillStyle = height_color(height * 1.4, light);
-            context.strokeStyle = height_color(height * 1.4, light * 0.78);
+            context.fillStyle = height_color(height, light);
+            context.strokeStyle = height_color(height, light * 0.78);
             context.fill();
             context.stroke();
         }
@@ -108,7 +114,7 @@ export class AtomDrawing {
         bent.forEach(([, , z], i) => {
             context.beginPath();
             context.arc(seen[i][0], seen[i][1], radius, 0, 2 * Math.PI);
-            context.fillStyle = height_color(z / HEIGHT * 1.4, 0.95);
+            context.fillStyle = height_color(z / FULL_COLOR, 0.95);
             context.fill();
         });
     }

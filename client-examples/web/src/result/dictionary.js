@@ -1,5 +1,6 @@
 import { element } from '../dom.js';
 import { AtomDrawing } from './atom_drawing.js';
+import { atom_strengths } from './atom_strength.js';
 
 const FRAME_MILLISECONDS = 12;
 const next_frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
@@ -20,15 +21,18 @@ export class DictionaryView {
         this.shown_ = null;
     }
 
-    /** @param {object} dictionary patternPoints, atoms, usage, pattern, radius */
-    async show(dictionary) {
+    /**
+     * @param {object} dictionary patternPoints, atoms, usage, pattern, radius
+     * @param {import('../worker/fields.js').Fields} fields of the shape that it was learned on
+     */
+    async show(dictionary, fields) {
         this.shown_ = dictionary;
         const order = dictionary.atoms.map((_, k) => k)
             .sort((a, b) => dictionary.usage[b] - dictionary.usage[a]);
         this.buttons_ = new Map(order.map((k) => [k, this.button_(k, dictionary.usage[k])]));
         this.place_.replaceChildren(this.introduction_(dictionary),
             element('ul.atoms', {}, ...order.map((k) => element('li', {}, this.buttons_.get(k)))));
-        await this.draw_(dictionary, order);
+        await this.draw_(dictionary, order, atom_strengths(fields, order.length));
     }
 
     /** Marks one atom as chosen, or none. */
@@ -41,8 +45,8 @@ export class DictionaryView {
     introduction_({ atoms, patternPoints }) {
         return element('p.quiet', {},
             `${atoms.length} atoms over a pattern of ${patternPoints.length / 3} points, most used ` +
-            'first. Each is drawn as the pattern that it deforms, orange above and blue below its ' +
-            'plane, all to one height. Choose one to light up where the shape uses it.');
+            'first. Each is drawn as it deforms the pattern, as strongly as this shape uses it, orange ' +
+            'above and blue below the plane. Choose one to light up where the shape uses it.');
     }
 
     button_(k, usage) {
@@ -60,12 +64,13 @@ export class DictionaryView {
     }
 
     /** A few at a time, so that hundreds of atoms do not hold up the page. */
-    async draw_(dictionary, order) {
+    async draw_(dictionary, order, strengths) {
         const drawing = new AtomDrawing(dictionary);
         let since = performance.now();
         for (const k of order) {
             if (this.shown_ !== dictionary) return;
-            drawing.draw(this.buttons_.get(k).firstElementChild, dictionary.atoms[k]);
+            drawing.draw(this.buttons_.get(k).firstElementChild, dictionary.atoms[k],
+                strengths[k]);
             if (performance.now() - since < FRAME_MILLISECONDS) continue;
             await next_frame();
             since = performance.now();

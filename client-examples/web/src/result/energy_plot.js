@@ -18,11 +18,12 @@ function text(x, y, anchor, content) {
 
 function axes(low, high, y, iterations, x_of_iteration) {
     const parts = [];
+    const digits = Math.max(0, 1 - Math.floor(Math.log10(high - low)));
     for (let i = 0; i <= 3; ++i) {
         const value = low + (high - low) * i / 3;
         parts.push(svg_element('line', { class: 'grid', x1: LEFT, x2: WIDTH - RIGHT, y1: y(value),
             y2: y(value) }),
-            text(LEFT - 6, y(value) + 3.5, 'end', short_number(value)));
+            text(LEFT - 6, y(value) + 3.5, 'end', value.toFixed(digits)));
     }
     const every = Math.ceil(iterations / 10);
     for (let i = 0; i < iterations; i += every) {

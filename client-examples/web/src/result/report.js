@@ -1,5 +1,5 @@
 import { element } from '../dom.js';
-import { count_of, duration, file_size, short_number } from '../numbers.js';
+import { duration, file_size, short_number } from '../numbers.js';
 
 /** Pairs of what is told first of a report; what it does not have is left out. */
 function figures(report) {
@@ -18,7 +18,8 @@ function figures(report) {
         report.outliers > 0 && ['Outliers', short_number(report.outliers)],
         report.duplicates > 0 && ['Duplicates', short_number(report.duplicates)],
         report.nonFinite > 0 && ['Not finite, dropped', short_number(report.nonFinite)],
-        ['Time', `${duration(report.seconds)} on ${count_of(report.threads, 'thread')}`],
+        ['Time', duration(report.seconds)],
+        ['Threads', short_number(report.threads)],
         report.peakMemoryBytes && ['Memory, at most', file_size(report.peakMemoryBytes)],
     ].filter(Boolean);
 }

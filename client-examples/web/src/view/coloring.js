@@ -4,7 +4,7 @@ import { DIMENSIONS, map_values, rgb, tints_of } from './color_maps.js';
 
 const DIM = { dark: '#3a4254', light: '#c3c8d2' };
 const PLAIN = {
-    dark: { before: '#e8a26a', after: '#7cc4e8' }, light: { before: '#c77439', after: '#3b8fb8' } };
+    dark: { before: '#e8a26a', after: '#7cc4e8' }, light: { before: '#e0935c', after: '#56abd6' } };
 const other = { before: 'after', after: 'before' };
 
 /**
@@ -95,6 +95,14 @@ function range_of(lists, mode) {
     return [Math.min(...all.map((values) => quantile(values, 0.02))), high];
 }
 
+function root_mean_square(values) {
+    return Math.sqrt(values.reduce((sum, value) => sum + value * value, 0) / values.length);
+}
+
+function by_side(sides, list) {
+    return Object.fromEntries(sides.map((side, i) => [side, list[i]]));
+}
+
 async function scalar_tints(scene, sides, mode) {
     const values = await Promise.all(sides.map((side) => values_of(scene, side, mode)));
     const range = range_of(values, mode);
@@ -106,7 +114,8 @@ async function scalar_tints(scene, sides, mode) {
         if (mode === 'atom') list.forEach((value, p) => value === 0 && mapped.set(dim, p * 3));
         return mapped;
     });
-    return { tints, legend: { range, map } };
+    const rms = mode === 'error' ? by_side(sides, values.map(root_mean_square)) : undefined;
+    return { tints, legend: { range, map, rms } };
 }
 
 /**
@@ -116,12 +125,11 @@ async function scalar_tints(scene, sides, mode) {
  */
 export async function color(scene, mode) {
     const sides = ['before', 'after'].filter((side) => scene[side]);
-    const by_side = (list) => Object.fromEntries(sides.map((side, i) => [side, list[i]]));
     const simple = { plain, rgb: rgb_tints, dimension: dimension_tints }[mode];
     if (simple) {
         const tints = await Promise.all(sides.map((side) => simple(scene, side)));
-        return { tints: by_side(tints), legend: mode === 'dimension' ? { classes: DIMENSIONS } : {} };
+        return { tints: by_side(sides, tints), legend: mode === 'dimension' ? { classes: DIMENSIONS } : {} };
     }
     const { tints, legend } = await scalar_tints(scene, sides, mode);
-    return { tints: by_side(tints), legend };
+    return { tints: by_side(sides, tints), legend };
 }
