@@ -21,10 +21,24 @@ struct Limits {
     std::uint64_t head_bytes = 32ULL << 10;
     std::uint64_t head_fields = 100;
     std::uint64_t uri_bytes = 8ULL << 10;
+    std::uint64_t head_seconds = 10;
     std::uint64_t body_idle_seconds = 15;
     std::uint64_t body_seconds = 3600;
+    std::uint64_t body_rate_floor = 1024;
+    std::uint64_t write_stall_seconds = 30;
+    std::uint64_t keep_alive_seconds = 15;
+    std::uint64_t keep_alive_requests = 100;
+    std::uint64_t connections = 4096;
+    std::uint64_t connections_per_client = 64;
+    std::uint64_t uploads_at_once = 128;
+    std::uint64_t long_requests_at_once = 64;
+    std::uint64_t event_streams = 1024;
+    std::uint64_t event_streams_per_client = 16;
 
     std::uint64_t queued_jobs = 1000;
+    std::uint64_t queued_jobs_per_key = 100;
+    std::uint64_t running_jobs_per_key = 0;  ///< 0: as many as there are cores
+    std::uint64_t small_job_points = 100'000;
     std::uint64_t job_seconds = 3600;
     std::uint64_t job_attempts = 3;
     std::uint64_t wait_seconds = 60;
@@ -37,6 +51,7 @@ struct Limits {
 
     std::uint64_t result_retention_seconds = 7ULL * 24 * 3600;
     std::uint64_t status_retention_seconds = 30ULL * 24 * 3600;
+    std::uint64_t stored_bytes = 0;  ///< 0: no limit but the disk's
     std::uint64_t disk_floor_bytes = 2ULL << 30;
     std::uint64_t disk_floor_percent = 5;
 };

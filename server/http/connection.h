@@ -1,54 +1,60 @@
 #pragma once
 
-#include <httplib.h>
+#include <sys/socket.h>
 
 #include <chrono>
+#include <cstdint>
+#include <memory>
 #include <string>
+#include <string_view>
 
-#include "server/http/listener.h"
+#include "server/http/descriptor.h"
+#include "server/http/guests.h"
+#include "server/http/head.h"
 
 namespace lpf::http {
 
-/// An accepted socket as the transport library's stream. Waits with poll(), so that descriptors
-/// above 1023 keep their time-outs, and gives out first what was put in front: the head it may see.
-class Connection : public httplib::Stream {
-public:
-    Connection(int socket, const ListenerOptions& options);
+using Clock = std::chrono::steady_clock;
 
-    /// Reads up to the end of the head within the head deadline.
-    /// @throws ProblemException 408 when it takes too long, 431 when it is too large
-    /// @returns the head, or an empty text when the client left without a request
-    std::string read_head();
-
-    /// What the stream gives out before the bytes that follow the real head.
-    void put_in_front(const std::string& head) { buffered_ = head + buffered_; }
-
-    /// Sends a whole answer, without the transport library.
-    void send(const Response& response);
-
-    /// Says goodbye: ends the sending side and swallows, for a short while, what the client is
-    /// still sending; closing at once would reset the connection and could take the answer with it.
-    void linger();
+/// A client's connection. One thread at a time owns it: the reception while a head comes, a lane
+/// while the request is worked on, the delivery while the answer goes out.
+struct Connection {
+    /// @param admitted by `hosts`, which it leaves at its end
+    Connection(Descriptor admitted, std::string from, Guests& hosts)
+        : socket(std::move(admitted)), address(std::move(from)), guests(hosts) {}
+    ~Connection() { guests.leave(socket.get(), address); }
+    Connection(const Connection&) = delete;
+    Connection& operator=(const Connection&) = delete;
 
     /// True when the client has closed its side.
     [[nodiscard]] bool abandoned() const;
+    /// Throws away what the client has not taken: closed as usual, the system would go on holding
+    /// it, and the client would see an answer that seems to be whole.
+    void give_up() const;
 
-    [[nodiscard]] bool is_readable() const override;
-    [[nodiscard]] bool is_writable() const override;
-    ssize_t read(char* data, size_t size) override;
-    ssize_t write(const char* data, size_t size) override;
-    void get_remote_ip_and_port(std::string& ip, int& port) const override;
-    void get_local_ip_and_port(std::string& ip, int& port) const override;
-    [[nodiscard]] socket_t socket() const override { return socket_; }
-
-private:
-    int socket_;
-    const ListenerOptions& options_;
-    std::chrono::steady_clock::time_point body_deadline_;
-    std::string buffered_;  // bytes to give out before those of the socket
+    Descriptor socket;    ///< never blocks
+    std::string address;  ///< as limits see it: of IPv6 the network
+    Guests& guests;
+    std::string input;         ///< received and not yet used
+    std::uint64_t served = 0;  ///< requests
 };
 
-/// The time as the Date header has it.
-[[nodiscard]] std::string http_date();
+using ConnectionPtr = std::unique_ptr<Connection>;
+
+/// A request whose head is complete.
+struct Arrival {
+    ConnectionPtr connection;
+    Head head;
+};
+
+/// Waits until `events` of poll() happen. @returns false at the deadline
+bool wait_for(int socket, short events, Clock::time_point deadline);
+
+/// Sends what the socket takes at once, and removes it from the front of `text`.
+/// @returns false if the client is gone
+bool send_some(int socket, std::string_view& text);
+
+/// The address as limits see it: whoever has an IPv6 network has all of its addresses.
+[[nodiscard]] std::string address_for_limits(const sockaddr_storage& peer);
 
 }  // namespace lpf::http

@@ -132,14 +132,39 @@ void find_framing(const Limits& limits, Head& head) {
     const auto encoding = single(head, "transfer-encoding");
     if (length && encoding)
         refuse_head("Content-Length and Transfer-Encoding must not come together.");
-    if (encoding && lower(*encoding) != "chunked")
-        refuse_head("The only transfer coding known here is 'chunked'.");
+    if (encoding && (lower(*encoding) != "chunked" || head.old))
+        refuse_head("The only transfer coding known here is 'chunked', of HTTP/1.1.");
     head.chunked = encoding.has_value();
     if (length) parse_length(*length, limits, head);
     const bool wants_body = head.method == "POST" || head.method == "PUT" || head.method == "PATCH";
     if (wants_body && !length && !encoding) {
         refuse(ProblemCode::LengthRequired,
                "Say how long the body is: send Content-Length, or Transfer-Encoding: chunked.");
+    }
+}
+
+void find_coding(Head& head) {
+    const std::string coding = lower(single(head, "content-encoding").value_or("identity"));
+    head.gzip = coding == "gzip" || coding == "x-gzip";
+    if (head.gzip || coding == "identity") return;
+    refuse(ProblemCode::UnsupportedMediaType,
+           "The body may be compressed with gzip, or not at all: send Content-Encoding: gzip, or "
+           "none.");
+}
+
+/// What the client says about the connection itself.
+void find_manners(Head& head) {
+    head.expects_continue =
+        !head.old && lower(single(head, "expect").value_or("")) == "100-continue";
+    head.keep_alive = !head.old;
+    for (const auto& [name, value] : head.headers) {
+        if (name != "connection") continue;
+        const std::string options = "," + lower(value) + ",";
+        for (std::size_t at = 0; (at = options.find("close", at)) != std::string::npos; ++at) {
+            const bool begins = options[at - 1] == ',' || options[at - 1] == ' ';
+            const bool ends = options[at + 5] == ',' || options[at + 5] == ' ';
+            if (begins && ends) head.keep_alive = false;
+        }
     }
 }
 
@@ -152,9 +177,13 @@ int hex_digit(char c) {
 
 }  // namespace
 
-std::size_t end_of_head(std::string_view text) {
-    const auto position = text.find("\r\n\r\n");
-    return position == std::string_view::npos ? position : position + 4;
+std::size_t end_of_head(std::string_view text, std::size_t known) {
+    auto at = text.find('\n', known);
+    for (; at != std::string_view::npos; at = text.find('\n', at + 1)) {
+        if (at == 0 || text[at - 1] != '\r') refuse_head("A line of the head does not end CR LF.");
+        if (at >= 3 && text.substr(at - 3, 2) == kEndOfLine) return at + 1;
+    }
+    return std::string_view::npos;
 }
 
 Head parse_head(std::string_view text, const Limits& limits) {
@@ -166,20 +195,19 @@ Head parse_head(std::string_view text, const Limits& limits) {
     const auto end = text.find(kEndOfLine);
     parse_request_line(text.substr(0, end), limits, head);
     parse_fields(text.substr(end + kEndOfLine.size()), limits, head);
-    if (text.substr(0, end).ends_with("HTTP/1.1") && !single(head, "host"))
-        refuse_head("The header field Host is missing.");
+    head.old = text.substr(0, end).ends_with("HTTP/1.0");
+    const auto host = single(head, "host");
+    if (!host && !head.old) refuse_head("The header field Host is missing.");
     find_framing(limits, head);
+    find_coding(head);
+    find_manners(head);
     return head;
 }
 
 std::string transport_head(const Head& head) {
-    constexpr std::array kNeeded{"content-length",   "transfer-encoding", "content-type",
-                                 "content-encoding", "accept-encoding",   "expect"};
-    std::string out = head.method + " / HTTP/1.1\r\n";
-    for (const auto& [name, value] : head.headers) {
-        if (std::find(kNeeded.begin(), kNeeded.end(), name) != kNeeded.end())
-            out += name + ": " + value + "\r\n";
-    }
+    std::string out = head.method == "HEAD" ? "HEAD / HTTP/1.1\r\n" : "GET / HTTP/1.1\r\n";
+    for (const auto& [name, value] : head.headers)
+        if (name == "accept-encoding") out += name + ": " + value + "\r\n";
     return out + "\r\n";
 }
 

@@ -1,54 +1,23 @@
 #include "server/http/listener.h"
 
-#include <fcntl.h>
-#include <sys/socket.h>
-#include <unistd.h>
+#include <atomic>
+#include <csignal>
 
-#include <condition_variable>
-#include <map>
-#include <mutex>
-#include <thread>
-
-#include "core/base/error.h"
-#include "server/http/connection.h"
-#include "server/http/task_pool.h"
+#include "api/http_text.h"
+#include "server/http/body_reader.h"
+#include "server/http/delivery.h"
+#include "server/http/event_streams.h"
+#include "server/http/lane.h"
+#include "server/http/reception.h"
+#include "server/http/transport.h"
 
 namespace lpf::http {
 namespace {
 
-constexpr int kBacklog = 512;  // the library's own is 5: bursts would wait for seconds
-constexpr std::size_t kSlice = 256 * 1024;
-
-/// Lets a restarted server have its port at once. The library's own choice, SO_REUSEPORT, would let
-/// two servers share a port in silence.
-void reuse_address(socket_t socket) {
-    const int yes = 1;
-    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
-}
-
-/// Sends a slice of a file piece by piece.
-void stream_file(const FileSlice& slice, const std::string& type, httplib::Response& out) {
-    const int file = ::open(slice.path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0) throw Error(ErrorCode::StorageFailure, "A stored file cannot be opened.");
-    auto provide = [file, start = slice.offset](size_t offset, size_t length,
-                                                httplib::DataSink& sink) {
-        std::string piece(std::min(length, kSlice), '\0');
-        const auto at = static_cast<off_t>(start + offset);
-        const auto n = ::pread(file, piece.data(), piece.size(), at);
-        return n > 0 && sink.write(piece.data(), static_cast<size_t>(n));
-    };
-    out.set_content_provider(slice.length, type, provide, [file](bool) { ::close(file); });
-}
-
-void fill(const Response& response, httplib::Response& out) {
-    for (const auto& [name, value] : response.headers) out.set_header(name, value);
-    out.set_header("Date", http_date());
-    if (response.file && response.file->length > 0) {
-        stream_file(*response.file, response.content_type, out);
-    } else if (!response.content_type.empty()) {
-        out.set_content(response.body, response.content_type);
-    }
-    out.status = response.status;
+Problem busy(const std::string& what) {
+    return {.problem = ProblemCode::Unavailable,
+            .detail = "Too many " + what + " at a time; try again in a second.",
+            .retry_after = 1};
 }
 
 /// The id that the client gave, if it is harmless in a log, else none.
@@ -63,169 +32,189 @@ std::string request_id(const Head& head) {
     return {};
 }
 
-Request make_request(const Head& head) {
+Request make_request(const Head& head, const Connection& connection) {
     Request request;
     request.method = head.method;
     request.path = head.path;
     request.query = head.query;
     request.headers = head.headers;
     request.id = request_id(head);
+    request.client = connection.address;
     return request;
 }
 
-void attach_body(Request& request, const httplib::ContentReader* reader) {
-    request.read_body = [reader](const BodySink& sink) {
-        if (!reader) return true;
-        return (*reader)([&](const char* data, size_t n) { return sink({data, n}); });
-    };
-    request.read_multipart = [reader](const PartSink& part, const BodySink& sink) {
-        if (!reader) return false;
-        return (*reader)(
-            [&](const httplib::MultipartFormData& head) {
-                return part({head.name, head.filename, head.content_type});
-            },
-            [&](const char* data, size_t n) {
-                return sink({data, n});
-            });
-    };
+bool is_preference(const std::pair<std::string, std::string>& field) {
+    return field.first == "prefer";
+}
+
+bool wants_to_wait(const Request& request) {
+    return std::any_of(request.headers.begin(), request.headers.end(), [](const auto& field) {
+        return is_preference(field) && prefer_wait(field.second, 1).has_value();
+    });
 }
 
 }  // namespace
 
-class Listener::Server : public httplib::Server {
+class Listener::House {
 public:
-    Server(ListenerOptions options, http::Handler handler, RefusalHandler refuse)
-        : options_(std::move(options)), handler_(std::move(handler)), refuse_(std::move(refuse)) {
-        set_keep_alive_max_count(1);
-        set_tcp_nodelay(true);
-        set_socket_options(reuse_address);
-        set_payload_max_length(static_cast<size_t>(-1));  // handlers count the bytes themselves
-        set_exception_handler([](const auto&, auto& response, const std::exception_ptr&) {
-            response.headers.clear();  // the library would send the exception's text
-            response.status = 500;
-        });
-        new_task_queue = [this] { return new TaskPool(options_.threads, options_.queue); };
-        register_handlers();
+    House(ListenerOptions options, http::Handler handler, RefusalHandler refusal)
+        : options_(std::move(options)),
+          handler_(std::move(handler)),
+          refuse_(std::move(refusal)),
+          guests_(options_.limits),
+          transport_(options_.limits),
+          streams_(options_.limits),
+          reception_(options_.limits, guests_,
+                     {[this](Arrival arrival) { dispatch(std::move(arrival)); },
+                      [this](ConnectionPtr connection, const Problem& problem) {
+                          refuse(std::move(connection), {}, problem);
+                      }}),
+          delivery_(options_.limits, [this](ConnectionPtr connection,
+                                            bool keep) { part(std::move(connection), keep); }),
+          quick_(lane(options_.threads, options_.queue)),
+          long_(lane(options_.limits.long_requests_at_once, 0)),
+          bodies_(lane(options_.limits.uploads_at_once, 0)) {
+        std::signal(SIGPIPE, SIG_IGN);  // sendfile() knows no MSG_NOSIGNAL
     }
 
     int start() {
-        if (options_.port == 0) {
-            options_.port = bind_to_any_port(options_.host);
-        } else if (!bind_to_port(options_.host, options_.port)) {
-            options_.port = -1;
-        }
-        if (options_.port < 0 || ::listen(svr_sock_, kBacklog) != 0) {
-            throw Error(ErrorCode::StorageFailure, "Cannot listen on " + options_.host +
-                                                       ": is the port taken by another program?");
-        }
-        thread_ = std::jthread([this] { listen_after_bind(); });
-        while (!is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        return options_.port;
+        const int port = transport_.bind(options_.host, options_.port);
+        reception_.start(transport_.socket());
+        return port;
     }
 
     void end(std::chrono::milliseconds patience) {
-        if (!thread_.joinable()) return;
-        leaving_ = true;
-        httplib::Server::stop();
-        {
-            std::unique_lock lock(mutex_);
-            for (const auto& [socket, busy] : open_)
-                if (!busy) ::shutdown(socket, SHUT_RD);  // it has asked for nothing yet
-            if (!idle_.wait_for(lock, patience, [&] { return open_.empty(); })) {
-                for (const auto& [socket, busy] : open_) ::shutdown(socket, SHUT_RDWR);
-            }
-        }
-        thread_.join();
+        if (leaving_.exchange(true)) return;
+        reception_.leave();
+        transport_.close();
+        streams_.stop();
+        if (!guests_.wait_until_empty(patience)) guests_.cut_all();
+        quick_.close();
+        long_.close();
+        bodies_.close();
+        delivery_.stop();
+        reception_.stop();
     }
 
 private:
-    void register_handlers() {
-        const auto plain = [this](const auto&, auto& out) { answer(nullptr, out); };
-        const auto with_body = [this](const auto&, auto& out, const auto& reader) {
-            answer(&reader, out);
+    [[nodiscard]] Lane lane(std::size_t threads, std::size_t queue) {
+        return {threads, queue, [this](Arrival arrival) { serve(std::move(arrival)); }};
+    }
+
+    /// On the reception's thread.
+    void dispatch(Arrival arrival) {
+        if (arrival.head.has_body()) {
+            enter(bodies_, std::move(arrival), "uploads");
+            return;
+        }
+        const Request request = make_request(arrival.head, *arrival.connection);
+        const Pace pace = options_.pace(request);
+        if (pace == Pace::AtOnce) {
+            serve(std::move(arrival));
+        } else if (pace == Pace::Long) {
+            enter(long_, std::move(arrival), "long requests");
+        } else if (!wants_to_wait(request)) {
+            enter(quick_, std::move(arrival), "requests");
+        } else if (!long_.enter(arrival)) {
+            // A preference need not be granted: this client has its answer now.
+            std::erase_if(arrival.head.headers, is_preference);
+            enter(quick_, std::move(arrival), "requests");
+        }
+    }
+
+    void enter(Lane& lane, Arrival arrival, const std::string& what) {
+        if (lane.enter(arrival)) return;
+        refuse(std::move(arrival.connection), arrival.head, busy(what));
+    }
+
+    /// On a lane's thread.
+    void serve(Arrival arrival) {
+        Connection& connection = *arrival.connection;
+        Request request = make_request(arrival.head, connection);
+        BodyReader body(connection, arrival.head, options_.limits);
+        request.read_body = [&](const BodySink& sink) { return body.read(sink); };
+        request.read_multipart = [&](const PartSink& part, const BodySink& sink) {
+            return body.read_form(part, sink);
         };
-        Get("/", plain).Options("/", plain).Delete("/", httplib::Server::Handler(plain));
-        Delete("/", HandlerWithContentReader(with_body));
-        Post("/", HandlerWithContentReader(with_body));
-        Put("/", HandlerWithContentReader(with_body));
-        Patch("/", HandlerWithContentReader(with_body));
-    }
-
-    /// Called by the library, on the connection's thread, once it has seen the transport head.
-    void answer(const httplib::ContentReader* reader, httplib::Response& out) {
-        attach_body(*current_, reader);
-        fill(handler_(*current_), out);
-    }
-
-    bool process_and_close_socket(socket_t socket) override {
-        track(socket, false);
-        Connection connection(socket, options_);
-        try {
-            serve(connection);
-        } catch (const ProblemException& refusal) {
-            connection.send(refuse_(refusal.problem()));
-            if (!TaskPool::refusing() && !leaving_) connection.linger();
-        } catch (...) {  // nothing may end the pool's thread
-        }
-        untrack(socket);
-        ::close(socket);
-        return true;
-    }
-
-    void serve(Connection& connection) {
-        if (TaskPool::refusing() || leaving_) {
-            throw ProblemException(
-                {.problem = ProblemCode::Unavailable,
-                 .detail = "Too many connections are waiting; try again in a second.",
-                 .retry_after = 1});
-        }
-        const std::string text = connection.read_head();
-        if (text.empty()) return;
-        track(connection.socket(), true);
-        const Head head = parse_head(text, options_.limits);
-        Request request = make_request(head);
         request.abandoned = [&] { return leaving_ || connection.abandoned(); };
-        connection.put_in_front(transport_head(head));
-        current_ = &request;
-        bool closed = false;
-        process_request(connection, true, closed, nullptr);
-        if (head.has_body()) connection.linger();
+        Response response = answer(request);
+        const bool keep_alive = arrival.head.keep_alive && body.finished() && !leaving_ &&
+                                connection.served < options_.limits.keep_alive_requests;
+        if (response.feed && arrival.head.method != "HEAD") {
+            stream(std::move(arrival), std::move(response),
+                   request.key.empty() ? request.client : "key " + request.key);
+        } else {
+            deliver(std::move(arrival.connection), arrival.head, std::move(response), keep_alive);
+        }
     }
 
-    void track(int socket, bool busy) {
-        const std::lock_guard lock(mutex_);
-        open_[socket] = busy;
+    Response answer(Request& request) {
+        try {
+            return handler_(request);
+        } catch (...) {  // nothing may end the thread, and no text of an exception leaves it
+            return refuse_({.problem = ProblemCode::Internal});
+        }
     }
 
-    void untrack(int socket) {
-        const std::lock_guard lock(mutex_);
-        open_.erase(socket);
-        idle_.notify_all();
+    void deliver(ConnectionPtr connection, const Head& head, Response response, bool keep_alive) {
+        Outgoing out;
+        try {
+            out = transport_.render(head, std::move(response), keep_alive);
+        } catch (...) {  // the file is gone
+            out = transport_.render(head, refuse_({.problem = ProblemCode::StorageFailure}), false);
+        }
+        if (!delivery_.has_room(out))
+            out = transport_.render(head, refuse_(busy("answers")), false);
+        delivery_.take(std::move(connection), std::move(out));
+    }
+
+    void stream(Arrival arrival, Response response, const std::string& owner) {
+        const auto admission = streams_.reserve(owner);
+        if (admission == EventStreams::Admission::Granted) {
+            Outgoing out = transport_.render(arrival.head, std::move(response), false);
+            streams_.take(std::move(arrival.connection), std::move(out), owner);
+            return;
+        }
+        Problem problem = busy("event streams");
+        if (admission == EventStreams::Admission::ClientFull)
+            problem.problem = ProblemCode::RateLimited;
+        refuse(std::move(arrival.connection), arrival.head, problem);
+    }
+
+    void refuse(ConnectionPtr connection, const Head& head, const Problem& problem) {
+        delivery_.take(std::move(connection), transport_.render(head, refuse_(problem), false));
+    }
+
+    /// After the whole answer.
+    void part(ConnectionPtr connection, bool keep_alive) {
+        if (keep_alive && !leaving_) {
+            reception_.welcome_back(std::move(connection));
+        } else {
+            reception_.see_off(std::move(connection));
+        }
     }
 
     ListenerOptions options_;
-    http::Handler handler_;  // not httplib's, which has the same name
+    http::Handler handler_;
     RefusalHandler refuse_;
     std::atomic<bool> leaving_ = false;
-    std::mutex mutex_;
-    std::condition_variable idle_;
-    std::map<int, bool> open_;  // sockets, and whether they have sent a request
-    std::jthread thread_;
-
-    // The library hands its own request to the handlers; ours waits here for the same thread.
-    static thread_local Request* current_;
+    Guests guests_;
+    Transport transport_;
+    EventStreams streams_;
+    Reception reception_;
+    Delivery delivery_;
+    Lane quick_;
+    Lane long_;
+    Lane bodies_;
 };
 
-thread_local Request* Listener::Server::current_ = nullptr;
-
-Listener::Listener(ListenerOptions options, Handler handler, RefusalHandler refuse)
-    : server_(std::make_unique<Server>(std::move(options), std::move(handler), std::move(refuse))) {
-}
+Listener::Listener(ListenerOptions options, Handler handler, RefusalHandler refusal)
+    : house_(std::make_unique<House>(std::move(options), std::move(handler), std::move(refusal))) {}
 
 Listener::~Listener() { stop(std::chrono::seconds(1)); }
 
-int Listener::start() { return server_->start(); }
+int Listener::start() { return house_->start(); }
 
-void Listener::stop(std::chrono::milliseconds patience) { server_->end(patience); }
+void Listener::stop(std::chrono::milliseconds patience) { house_->end(patience); }
 
 }  // namespace lpf::http

@@ -26,8 +26,8 @@ std::optional<std::string> Request::header(std::string_view name) const {
 }
 
 std::optional<std::string> Request::query_value(std::string_view name) const {
-    for (const auto& [key, value] : query)
-        if (key == name) return value;
+    for (const auto& [field, value] : query)
+        if (field == name) return value;
     return std::nullopt;
 }
 

@@ -54,10 +54,28 @@ public:
         }
     }
 
-    /// Sends everything and reads the answer.
+    /// Sends everything, and reads the answer up to the server's end.
     [[nodiscard]] std::string ask(const std::string& text) const {
         send(text);
+        end();
         return read_all();
+    }
+
+    /// Reads until `mark` has come; an empty text if it does not.
+    [[nodiscard]] std::string read_until(const std::string& mark) const {
+        std::string text;
+        while (text.find(mark) == std::string::npos) {
+            char c = 0;
+            if (::recv(socket_, &c, 1, 0) <= 0) return {};
+            text += c;
+        }
+        return text;
+    }
+
+    /// What the client does not read stays with the server: a small window.
+    void read_little() const {
+        const int bytes = 4096;
+        ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &bytes, sizeof(bytes));
     }
 
 private:
