@@ -18,6 +18,9 @@ using nlohmann::json;
 
 constexpr std::array<std::string_view, 5> kStatusNames{"accepted", "running", "successful",
                                                        "failed", "dismissed"};
+// Registered link relations (RFC 5829) that say which way a retry lies.
+constexpr std::string_view kRetryOf = "predecessor-version";
+constexpr std::string_view kRetriedBy = "successor-version";
 constexpr std::string_view kResultsRelation = "http://www.opengis.net/def/rel/ogc/1.0/results";
 
 void put_times(json& target, const StatusInfo& info) {
@@ -39,6 +42,7 @@ void put_progress(json& target, const StatusInfo& info) {
     }
     if (info.eta_seconds) target["etaSeconds"] = *info.eta_seconds;
     if (info.queue_position) target["queuePosition"] = *info.queue_position;
+    if (info.estimated_start) target["estimatedStart"] = to_rfc3339(*info.estimated_start);
 }
 
 json job_links(const StatusInfo& info) {
@@ -48,6 +52,16 @@ json job_links(const StatusInfo& info) {
         links.push_back(to_json(Link{.href = self + "/results",
                                      .rel = std::string(kResultsRelation),
                                      .title = "The results of this job"}));
+    }
+    if (info.retry_of) {
+        links.push_back(to_json(Link{.href = "/v1/jobs/" + *info.retry_of,
+                                     .rel = std::string(kRetryOf),
+                                     .title = "The job that this one tries again"}));
+    }
+    for (const std::string& retry : info.retries) {
+        links.push_back(to_json(Link{.href = "/v1/jobs/" + retry,
+                                     .rel = std::string(kRetriedBy),
+                                     .title = "A job that tries this one again"}));
     }
     return links;
 }
@@ -94,6 +108,7 @@ void read_progress(StatusInfo& info, const json& stored) {
     info.phase_progress = phase_progress_from_json(stored);
     info.eta_seconds = stored::maybe<double>(stored, "etaSeconds");
     info.queue_position = stored::maybe<std::uint64_t>(stored, "queuePosition");
+    info.estimated_start = stored::maybe_time(stored, "estimatedStart");
 }
 
 }  // namespace
@@ -155,6 +170,7 @@ json to_json(const StatusInfo& info) {
     put_times(result, info);
     put_progress(result, info);
     if (info.exception) result["exception"] = to_json(*info.exception);
+    if (info.retry_of) result["retryOf"] = *info.retry_of;
     return result;
 }
 
@@ -174,6 +190,7 @@ StatusInfo status_from_json(const json& stored) {
     info.resolved_parameters = resolved_from_json(stored);
     info.shape = stored::need<std::string>(stored, "shape");
     info.warnings = stored::warnings_from_json(stored);
+    info.retry_of = stored::maybe<std::string>(stored, "retryOf");
     if (stored.contains("exception")) info.exception = problem_from_json(stored["exception"]);
     return info;
 }

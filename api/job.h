@@ -71,12 +71,15 @@ struct StatusInfo {
     std::optional<PhaseProgress> phase_progress;
     std::optional<double> eta_seconds;
     std::optional<std::uint64_t> queue_position;  ///< 1 = next
+    std::optional<UnixMillis> estimated_start;    ///< of a job that waits
     int attempt = 0;                              ///< 0 until it was started once
     JobInputs parameters;
     std::vector<ResolvedParameter> resolved_parameters;
     std::string shape;  ///< ID of the input shape
     std::vector<Warning> warnings;
-    std::optional<Problem> exception;  ///< of a failed job
+    std::optional<Problem> exception;       ///< of a failed job
+    std::optional<std::string> retry_of;    ///< ID of the job whose inputs it has
+    std::vector<std::string> retries = {};  ///< IDs of the jobs that have its inputs; not stored
 };
 
 /// The whole document. Members without a value are left out; `links` follow from the state.

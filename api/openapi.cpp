@@ -60,6 +60,11 @@ Json header_parameters(const Limits& limits) {
                                      "`wait=N` waits for the job to end, N seconds and " +
                                          std::to_string(limits.wait_seconds) + " at most.",
                                      openapi::text(""))},
+            {"idempotencyKey",
+             parameter("Idempotency-Key", "header",
+                       "A name for this request, such as a random UUID: sent again with the same "
+                       "name it makes no second job, but gets the first answer again.",
+                       openapi::text(""))},
             {"range", parameter("Range", "header", "One range of bytes, such as `bytes=0-1023`.",
                                 openapi::text(""))},
             {"ifNoneMatch", parameter("If-None-Match", "header",
@@ -93,6 +98,8 @@ Json headers() {
          header("The bytes that were sent, and how many there are.", openapi::text(""))},
         {"Content-Disposition", header("A name for the file.", openapi::text(""))},
         {"Preference-Applied", header("The preference that was followed.", openapi::text(""))},
+        {"Idempotency-Replayed",
+         header("`true`: the same request made this job before.", openapi::one_of("", {"true"}))},
         {"Link", header("The job (`rel=monitor`) whose result this is.", openapi::text(""))}};
 }
 

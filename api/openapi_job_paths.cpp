@@ -32,25 +32,27 @@ Json execution(Task task, const Limits& limits) {
                         "The body is the file itself, with the inputs in the query string; or a "
                         "form with the part `file` and the inputs as fields; or JSON that names an "
                         "uploaded shape. Every input is `auto` unless it is given.");
-    operation.parameter("preferWait");
+    operation.parameter("preferWait").parameter("idempotencyKey");
     for (const Parameter& parameter : parameters_of(task, limits)) {
         operation.parameter(parameter.name);
     }
     return operation.body("The shape.", execution_body(name))
         .answers(201, "The job is stored and will run.",
-                 json_content(component("StatusInfo"), status_example(task)), {"Location"})
+                 json_content(component("StatusInfo"), status_example(task)),
+                 {"Location", "Link", "Idempotency-Replayed"})
         .answers(200,
                  task == Task::Analyze ? "The job ended within the wait: its results."
                                        : "The job ended within the wait: the points themselves.",
-                 result_content(task), {"Preference-Applied", "Link"})
-        .fails({P::MalformedJson,  P::InvalidParameter,   P::Unprocessable,
-                P::TooFewPoints,   P::DegenerateShape,    P::IncompatibleDictionary,
-                P::MalformedFile,  P::UndecodableFile,    P::TimedOut,
-                P::OutOfMemory,    P::LimitExceeded,      P::PayloadTooLarge,
-                P::LengthRequired, P::UnsupportedFormat,  P::UnsupportedMediaType,
-                P::ShapeNotFound,  P::DictionaryNotFound, P::ProcessNotFound,
-                P::QuotaExceeded,  P::QueueFull,          P::InsufficientStorage,
-                P::NotAcceptable,  P::JobDismissed,       P::StorageFailure,
+                 result_content(task), {"Preference-Applied", "Link", "Idempotency-Replayed"})
+        .fails({P::MalformedJson,       P::InvalidParameter,    P::Unprocessable,
+                P::TooFewPoints,        P::DegenerateShape,     P::IncompatibleDictionary,
+                P::MalformedFile,       P::UndecodableFile,     P::TimedOut,
+                P::OutOfMemory,         P::LimitExceeded,       P::PayloadTooLarge,
+                P::LengthRequired,      P::UnsupportedFormat,   P::UnsupportedMediaType,
+                P::ShapeNotFound,       P::DictionaryNotFound,  P::ProcessNotFound,
+                P::IdempotencyConflict, P::IdempotencyMismatch, P::Unavailable,
+                P::QuotaExceeded,       P::QueueFull,           P::InsufficientStorage,
+                P::NotAcceptable,       P::JobDismissed,        P::StorageFailure,
                 P::WorkerLost})
         .json();
 }
@@ -69,7 +71,7 @@ Operation result(std::string_view name, const Json& content, bool choice_of_form
         .fails({P::JobNotFound, P::ResultNotReady, P::ResultNotFound, P::JobDismissed,
                 P::JobExpired, P::RangeNotSatisfiable, P::TooFewPoints, P::DegenerateShape,
                 P::MalformedFile, P::TimedOut, P::OutOfMemory, P::IncompatibleDictionary,
-                P::LimitExceeded, P::UnsupportedFormat, P::WorkerLost});
+                P::LimitExceeded, P::UnsupportedFormat, P::WorkerLost, P::InsufficientStorage});
     if (choice_of_format) operation.fails({P::InvalidParameter, P::NotAcceptable});
     return operation;
 }
@@ -85,7 +87,7 @@ Json result_paths() {
             .fails({P::JobNotFound, P::ResultNotReady, P::JobDismissed, P::JobExpired,
                     P::TooFewPoints, P::DegenerateShape, P::MalformedFile, P::TimedOut,
                     P::OutOfMemory, P::IncompatibleDictionary, P::LimitExceeded,
-                    P::UnsupportedFormat, P::WorkerLost})
+                    P::UnsupportedFormat, P::WorkerLost, P::InsufficientStorage})
             .json();
     const Json ply = file_content({"application/ply"});
     const Json points = file_content({"application/ply", "application/vnd.draco"});
@@ -99,6 +101,20 @@ Json result_paths() {
         paths[base + "/" + name]["head"] = operation.head();
     }
     return paths;
+}
+
+Json retry() {
+    return Operation("retryJob", "Jobs", "Try a job again",
+                     "A new job with the inputs of one that has ended. Each links to the other.")
+        .parameter("jobID")
+        .parameter("idempotencyKey")
+        .answers(201, "The new job is stored and will run.", json_content(component("StatusInfo")),
+                 {"Location", "Link", "Idempotency-Replayed"})
+        .fails({P::JobNotFound, P::JobDismissed, P::JobExpired, P::Conflict, P::ShapeNotFound,
+                P::DictionaryNotFound, P::TooFewPoints, P::DegenerateShape, P::LengthRequired,
+                P::PayloadTooLarge, P::IdempotencyConflict, P::IdempotencyMismatch,
+                P::QuotaExceeded, P::QueueFull, P::Unavailable, P::InsufficientStorage})
+        .json();
 }
 
 }  // namespace
@@ -141,6 +157,7 @@ Json job_paths() {
             .answers(200, "Dismissed.", json_content(component("StatusInfo")))
             .fails({P::JobNotFound, P::JobDismissed, P::JobExpired, P::Conflict})
             .json();
+    paths["/v1/jobs/{jobID}/retry"]["post"] = retry();
     return paths;
 }
 

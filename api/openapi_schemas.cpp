@@ -118,12 +118,14 @@ Json status_info_schema() {
                     false},
                    {"etaSeconds", number("Estimate of the time that is left."), false},
                    {"queuePosition", integer("Place in the queue; 1 is next.", 1), false},
+                   {"estimatedStart", time("Estimate of its start."), false},
                    {"attempt", integer("How often it was started.")},
                    {"parameters", parameters},
                    {"resolvedParameters", component("ResolvedParameters")},
                    {"shape", text("ID of the shape it works on.")},
                    {"warnings", array_of(component("Warning"))},
                    {"exception", component("Problem"), false},
+                   {"retryOf", id("The job whose inputs it has."), false},
                    {"links", links()}});
 }
 

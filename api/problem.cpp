@@ -42,7 +42,7 @@ constexpr ProblemKind kProblems[] = {
     {P::NotAcceptable, "not-acceptable", 406, "No acceptable format is offered", ""},
     {P::RequestTimeout, "request-timeout", 408, "The request came too slowly", ""},
     {P::Conflict, "conflict", 409, "The request does not fit the present state", ""},
-    {P::IdempotencyConflict, "idempotency-in-flight", 409, "The same request is in flight", ""},
+    {P::IdempotencyConflict, "idempotency-conflict", 409, "The same request is in flight", ""},
     {P::ShapeInUse, "shape-in-use", 409, "A job still needs the shape", ""},
     {P::JobDismissed, "job-dismissed", 410, "The job was dismissed", ""},
     {P::JobExpired, "job-expired", 410, "The job has expired", ""},

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/base/error.h"
-#include "server/pace.h"
 #include "server/routes.h"
 
 namespace lpf::server {
@@ -22,15 +21,22 @@ Config checked(Config config) {
     return config;
 }
 
+std::chrono::milliseconds millis(double seconds) {
+    return std::chrono::milliseconds(static_cast<std::int64_t>(seconds * 1000));
+}
+
 QueueOptions queue_options(const Config& config) {
+    const Limits& limits = config.limits;
     QueueOptions options;
     options.workers = config.jobs;
-    options.max_waiting = config.limits.queued_jobs;
-    options.max_attempts = config.limits.job_attempts;
-    options.job_seconds = static_cast<double>(config.limits.job_seconds);
-    options.result_retention =
-        static_cast<UnixMillis>(config.limits.result_retention_seconds) * 1000;
-    options.max_waiters = static_cast<int>(config.limits.long_requests_at_once);
+    options.limits = {limits.queued_jobs, limits.queued_jobs_per_key};
+    options.small_points = limits.small_job_points;
+    options.running_per_owner = limits.running_jobs_per_key;
+    options.leases = {millis(config.lease_seconds), millis(config.sweep_seconds),
+                      limits.job_attempts};
+    options.job_seconds = static_cast<double>(limits.job_seconds);
+    options.result_retention = static_cast<UnixMillis>(limits.result_retention_seconds) * 1000;
+    options.max_waiters = std::max(1, config.http_threads / 2);
     return options;
 }
 
@@ -40,7 +46,6 @@ http::ListenerOptions public_listener(const Config& config) {
     options.port = config.port;
     options.threads = static_cast<std::size_t>(config.http_threads);
     options.queue = kWaitingConnections;
-    options.pace = pace_of;
     options.limits = config.limits;
     return options;
 }
@@ -65,7 +70,7 @@ App::App(Config config, Log& log)
       storage_(books_, blobs_),
       runner_(storage_, {config_.limits, config_.threads, version()}),
       previews_(data_.path() / "previews"),
-      queue_(storage_, log_, telemetry_, queue_options(config_),
+      queue_(storage_, events_, log_, telemetry_, queue_options(config_),
              [this](RunningJob& job) { return runner_.run(job); }),
       services_{config_, data_, storage_, queue_, events_, previews_, log_, telemetry_},
       admin_(services_, admin_routes(services_), admin_listener(config_)),

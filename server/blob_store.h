@@ -54,6 +54,9 @@ public:
     /// @throws Error{StorageFailure} if the blob is not here
     [[nodiscard]] virtual std::filesystem::path local_file(const std::string& digest) const = 0;
 
+    /// Bytes of all blobs, without those that were put aside.
+    [[nodiscard]] virtual std::uint64_t stored_bytes() const = 0;
+
     /// Deletes a blob; nothing happens if it is not here.
     virtual void remove(const std::string& digest) = 0;
 

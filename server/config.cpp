@@ -56,6 +56,11 @@ void add_network_and_work(CLI::App& app, Config& config) {
         ->check(CLI::Range(0, 1024));
     add(app, "--http-threads", config.http_threads, "Requests served at a time; 0 chooses")
         ->check(CLI::Range(0, 1024));
+    add(app, "--lease-seconds", config.lease_seconds,
+        "A worker that is not heard of for so long loses its job")
+        ->check(CLI::Range(0.3, 86400.0));
+    add(app, "--sweep-seconds", config.sweep_seconds, "Time between two looks for lost jobs")
+        ->check(CLI::Range(0.1, 86400.0));
     app.add_option_function<std::string>(
            "--log-level",
            [&config](const std::string& name) { config.log_level = *level_from_name(name); },
@@ -118,6 +123,8 @@ Config resolve_threads(Config config, int cores) {
     config.jobs = std::min(config.jobs, cores);
     const int share = std::max(1, cores / config.jobs);
     config.threads = config.threads == 0 ? share : std::min(config.threads, share);
+    if (config.limits.running_jobs_per_key == 0)
+        config.limits.running_jobs_per_key = static_cast<std::uint64_t>(std::max(1, cores));
     if (config.http_threads == 0) config.http_threads = std::max(16, 2 * cores);
     return config;
 }

@@ -22,6 +22,8 @@ struct Config {
     int jobs = 0;                   ///< jobs worked on at a time; 0 = chosen from the cores
     int threads = 0;                ///< threads of each job; 0 = cores / jobs
     int http_threads = 0;           ///< requests served at a time; 0 = chosen from the cores
+    double lease_seconds = 30;      ///< a worker that is not heard of for so long loses its job
+    double sweep_seconds = 5;       ///< between two looks for such jobs
     LogLevel log_level = LogLevel::Info;
     Limits limits = {};
     bool health_check = false;  ///< only ask a running server whether it is healthy

@@ -10,6 +10,7 @@
 
 #include "api/problem.h"
 #include "core/base/error.h"
+#include "server/folder.h"
 #include "server/ids.h"
 #include "server/sha256.h"
 
@@ -27,18 +28,10 @@ constexpr auto kQuarantineTime = std::chrono::hours(24);
     throw Error(ErrorCode::StorageFailure, what + ": " + std::strerror(errno) + ".");
 }
 
-void sync_folder(const fs::path& folder) {
-    const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (file < 0) fail("A folder of the data folder cannot be opened");
-    const int result = ::fsync(file);
-    ::close(file);
-    if (result != 0) fail("A folder of the data folder cannot be synced");
-}
-
 class FileBlobWriter : public BlobWriter {
 public:
-    explicit FileBlobWriter(fs::path root)
-        : root_(std::move(root)), path_(root_ / "tmp" / new_id()) {
+    explicit FileBlobWriter(FileBlobStore& store)
+        : store_(store), path_(store.root() / "tmp" / new_id()) {
         file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
         if (file_ < 0) fail("A temporary file cannot be made");
     }
@@ -74,22 +67,13 @@ public:
         if (::fsync(file_) != 0) fail("Syncing a file failed");
         ::close(file_);
         file_ = -1;
-        const std::string name = digest();
-        const fs::path folder = root_ / "blobs" / name.substr(0, 2);
-        if (::mkdir(folder.c_str(), 0700) == 0) {
-            sync_folder(root_ / "blobs");
-        } else if (errno != EEXIST) {
-            fail("A folder for a file cannot be made");
-        }
-        if (::rename(path_.c_str(), (folder / name).c_str()) != 0)
-            fail("Moving a file to its place failed");
+        store_.take_in(path_, digest(), size_);
         path_.clear();
-        sync_folder(folder);
-        return name;
+        return digest_;
     }
 
 private:
-    fs::path root_;
+    FileBlobStore& store_;
     fs::path path_;
     int file_ = -1;
     std::uint64_t size_ = 0;
@@ -104,6 +88,13 @@ std::vector<fs::path> files_below(const fs::path& folder) {
     return files;
 }
 
+/// 0 if it is not there.
+std::uint64_t bytes_of(const fs::path& file) {
+    std::error_code error;
+    const auto bytes = fs::file_size(file, error);
+    return error ? 0 : bytes;
+}
+
 bool is_older(const fs::path& file, std::chrono::seconds age) {
     std::error_code error;
     const auto time = fs::last_write_time(file, error);
@@ -113,20 +104,44 @@ bool is_older(const fs::path& file, std::chrono::seconds age) {
 }  // namespace
 
 FileBlobStore::FileBlobStore(fs::path root) : root_(std::move(root)) {
+    make_folders();
     std::error_code error;
-    for (const char* name : {"blobs", "tmp", "quarantine"}) {
-        fs::create_directories(root_ / name, error);
+    for (const auto& file : files_below(root_ / "tmp")) fs::remove(file, error);
+    for (const auto& file : files_below(root_ / "blobs")) stored_bytes_ += bytes_of(file);
+}
+
+/// All of them now, and durably: a file must not depend on a folder that a crash takes away.
+void FileBlobStore::make_folders() const {
+    std::vector<fs::path> folders{root_, root_ / "tmp", root_ / "quarantine", root_ / "blobs"};
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    for (const char high : kDigits)
+        for (const char low : kDigits) folders.push_back(root_ / "blobs" / std::string{high, low});
+    for (const fs::path& folder : folders) {
+        std::error_code error;
+        fs::create_directories(folder, error);
         if (error) {
-            throw Error(ErrorCode::StorageFailure,
-                        "The folder '" + std::string(name) +
-                            "' of the data folder cannot be made: " + error.message() + ".");
+            throw Error(ErrorCode::StorageFailure, "The folder " + folder.string() +
+                                                       " cannot be made: " + error.message() + ".");
         }
     }
-    for (const auto& file : files_below(root_ / "tmp")) fs::remove(file, error);
+    sync_folder(root_ / "blobs");
+    sync_folder(root_);
+    sync_folder(fs::absolute(root_).parent_path());
 }
 
 std::unique_ptr<BlobWriter> FileBlobStore::create() {
-    return std::make_unique<FileBlobWriter>(root_);
+    return std::make_unique<FileBlobWriter>(*this);
+}
+
+void FileBlobStore::take_in(const fs::path& file, const std::string& digest, std::uint64_t bytes) {
+    const fs::path place = path_of(digest);
+    {
+        const std::lock_guard lock(mutex_);
+        const std::uint64_t before = bytes_of(place);
+        if (::rename(file.c_str(), place.c_str()) != 0) fail("Moving a file to its place failed");
+        stored_bytes_ += bytes - before;  // of equal files only one is kept
+    }
+    sync_folder(place.parent_path());
 }
 
 fs::path FileBlobStore::path_of(const std::string& digest) const {
@@ -148,9 +163,17 @@ fs::path FileBlobStore::local_file(const std::string& digest) const {
     return path;
 }
 
+std::uint64_t FileBlobStore::stored_bytes() const {
+    const std::lock_guard lock(mutex_);
+    return stored_bytes_;
+}
+
 void FileBlobStore::remove(const std::string& digest) {
+    const fs::path file = path_of(digest);
+    const std::lock_guard lock(mutex_);
+    const std::uint64_t bytes = bytes_of(file);
     std::error_code error;
-    fs::remove(path_of(digest), error);
+    if (fs::remove(file, error) && !error) stored_bytes_ -= bytes;
 }
 
 std::size_t FileBlobStore::quarantine_unknown(
@@ -160,11 +183,15 @@ std::size_t FileBlobStore::quarantine_unknown(
     for (const auto& file : files_below(root_ / "blobs")) {
         const std::string name = file.filename();
         if ((is_sha256(name) && is_known(name)) || !is_older(file, age)) continue;
+        const std::lock_guard lock(mutex_);
+        const std::uint64_t bytes = bytes_of(file);
         std::error_code error;
         const fs::path aside = root_ / "quarantine" / name;
         fs::rename(file, aside, error);
-        if (!error) fs::last_write_time(aside, fs::file_time_type::clock::now(), error);
-        if (!error) ++moved;
+        if (error) continue;
+        stored_bytes_ -= bytes;
+        ++moved;
+        fs::last_write_time(aside, fs::file_time_type::clock::now(), error);
     }
     return moved;
 }

@@ -45,9 +45,21 @@ void require_complete(bool complete) {
                            "The body ended early, or its framing or compression is broken.");
 }
 
-void require_space(const Services& services, const http::Request& request) {
+void require_space(Services& services, std::uint64_t bytes) {
+    services.data.require_space(bytes, services.limits());
+    const std::uint64_t quota = services.limits().stored_bytes;
+    const std::uint64_t stored = services.storage.blobs().stored_bytes();
+    if (quota == 0 || (stored <= quota && bytes <= quota - stored)) return;
+    throw ProblemException(ProblemCode::InsufficientStorage,
+                           "The files stored here would be more than " + std::to_string(quota) +
+                               " bytes in all (storedBytes; " + std::to_string(stored) +
+                               " are stored now). Delete shapes and jobs that are no longer "
+                               "needed, or wait until some expire.");
+}
+
+void require_space(Services& services, const http::Request& request) {
     const auto length = parse_number(request.header("content-length").value_or("0"));
-    services.data.require_space(length.value_or(0), services.limits());
+    require_space(services, length.value_or(0));
 }
 
 /// Sorts the parts of a form as they come.
@@ -188,7 +200,8 @@ StoredShape store_shape(Services& services, Upload upload) {
     const UnixMillis expires = now + services.result_retention();
     const std::string digest = upload.file->digest();
     JobStore& books = services.storage.jobs();
-    if (const auto known = books.find_shape_by_digest(digest)) {
+    const auto known = books.find_shape_by_digest(digest);
+    if (known && services.storage.blobs().size(digest)) {
         if (auto kept = books.keep_shape_until(known->id, expires)) return {*kept, true};
     }
     ShapeInfo info = inspect(services, *upload.file);
@@ -196,8 +209,9 @@ StoredShape store_shape(Services& services, Upload upload) {
     info.sha256 = digest;
     info.created = now;
     info.expires = expires;
-    const auto files_held = services.storage.adding();
-    upload.file->commit();
+    require_space(services, info.bytes);
+    FileHold held(services.storage);
+    held.commit(*upload.file);
     const ShapeInfo stored = books.add_shape(info);
     return {stored, stored.id != info.id};
 }

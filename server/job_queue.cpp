@@ -2,62 +2,44 @@
 
 #include <algorithm>
 
-#include "api/parameters.h"
-#include "core/base/error.h"
+#include "api/problem.h"
 
 namespace lpf::server {
 namespace {
 
-constexpr auto kPoll = std::chrono::seconds(1);
 constexpr auto kTick = std::chrono::milliseconds(200);
-constexpr int kTicksPerSave = 5;  // progress is written once a second
-
-/// What the client is told about an exception of the work.
-Problem problem_of(const std::exception_ptr& exception) {
-    try {
-        std::rethrow_exception(exception);
-    } catch (const ProblemException& error) {
-        return error.problem();
-    } catch (const Error& error) {
-        return problem_from(error);
-    } catch (const std::bad_alloc&) {
-        return problem_from(Error(ErrorCode::OutOfMemory,
-                                  "The job needs more memory than the server has. Ask for fewer "
-                                  "points, or remove points from the shape."));
-    } catch (...) {
-        return problem_from(Error(ErrorCode::Internal, "The job failed."));
-    }
-}
-
-/// The text for the log: also what the client is not told.
-std::string what_of(const std::exception_ptr& exception) {
-    try {
-        std::rethrow_exception(exception);
-    } catch (const std::exception& error) {
-        return error.what();
-    } catch (...) {
-        return "an exception of unknown type";
-    }
-}
+constexpr int kTicksPerSave = 5;  // progress is told and written once a second
 
 }  // namespace
 
-JobQueue::JobQueue(Storage& storage, Log& log, Telemetry& telemetry, QueueOptions options,
-                   JobWork work)
+JobQueue::JobQueue(Storage& storage, JobEvents& events, Log& log, Telemetry& telemetry,
+                   QueueOptions options, JobWork work)
     : storage_(storage),
       log_(log),
       telemetry_(telemetry),
       options_(options),
-      work_(std::move(work)) {}
+      work_(std::move(work)),
+      forecast_(storage.jobs(), running_, options.workers),
+      teller_(events),
+      leases_(storage.jobs(), running_, log, telemetry, options.leases,
+              [this](const std::vector<StatusInfo>& jobs) {
+                  for (const StatusInfo& job : jobs)
+                      is_finished(job.status) ? teller_.ends(job) : teller_.waits(job);
+                  queue_grew();
+                  tell_waiters();
+              }) {}
 
 JobQueue::~JobQueue() { stop(); }
 
 void JobQueue::start() {
-    const auto lost = storage_.jobs().recover(options_.max_attempts, now_millis());
-    if (lost > 0) log_.warn("jobs-recovered", {{"jobs", static_cast<std::int64_t>(lost)}});
+    const auto lost = storage_.jobs().take_back_all(options_.leases.max_attempts, now_millis());
+    if (!lost.empty())
+        log_.warn("jobs-recovered", {{"jobs", static_cast<std::int64_t>(lost.size())}});
+    forecast_.learn_from_store();
+    leases_.start();
     for (int i = 0; i < options_.workers; ++i)
-        threads_.emplace_back([this] { work_until_stopped(); });
-    threads_.emplace_back([this] { watch(); });
+        workers_.emplace_back([this] { work_until_stopped(); });
+    watcher_ = std::jthread([this](const std::stop_token& stop) { watch(stop); });
 }
 
 void JobQueue::refuse_new() {
@@ -69,51 +51,57 @@ void JobQueue::refuse_new() {
 
 void JobQueue::stop() {
     refuse_new();
-    for (const auto& job : running()) job->stop(StopReason::Shutdown);
-    threads_.clear();  // joins
+    for (const auto& job : running_.all()) job->stop(StopReason::Shutdown);
+    workers_.clear();  // joins
+    watcher_ = {};
+    leases_.stop();
 }
 
-void JobQueue::submit(const StatusInfo& job) {
+void JobQueue::submit(const NewJob& job) {
     if (stopping_) {
         throw ProblemException({.problem = ProblemCode::Unavailable,
                                 .detail = "The server is about to stop; try again in a minute.",
                                 .retry_after = 60});
     }
-    storage_.jobs().add_job(job, options_.max_waiting);
-    const std::lock_guard lock(mutex_);
-    ++arrivals_;
-    wake_.notify_one();
+    storage_.jobs().add_job(job, options_.limits);
+    teller_.waits_first(job.info);
+    queue_grew();
 }
 
-std::optional<StoredJob> JobQueue::find(const std::string& id) const {
-    std::shared_ptr<RunningJob> live;
-    {
-        const std::lock_guard lock(mutex_);
-        if (const auto found = running_.find(id); found != running_.end()) live = found->second;
+void JobQueue::queue_grew() {
+    forecast_.outdated();
+    const std::lock_guard lock(mutex_);
+    ++arrivals_;
+    wake_.notify_all();  // not every worker may take every job
+}
+
+void JobQueue::freshen(StatusInfo& info) {
+    if (info.status == JobStatus::Accepted) forecast_.tell(info);
+    if (info.status != JobStatus::Running) return;
+    if (const auto live = running_.find(info.job_id)) {
+        std::vector<std::string> retries = std::move(info.retries);
+        info = live->info();
+        info.retries = std::move(retries);
     }
+}
+
+std::optional<StoredJob> JobQueue::find(const std::string& id) {
     auto job = storage_.jobs().find_job(id);
-    if (job && live && job->info.status == JobStatus::Running) job->info = live->info();
+    if (job) freshen(job->info);
     return job;
 }
 
-JobPage JobQueue::list(const JobFilter& filter) const {
+JobPage JobQueue::list(const JobFilter& filter) {
     JobPage page = storage_.jobs().list_jobs(filter);
-    const std::lock_guard lock(mutex_);
-    for (StatusInfo& info : page.jobs) {
-        const auto live = running_.find(info.job_id);
-        if (live != running_.end() && info.status == JobStatus::Running)
-            info = live->second->info();
-    }
+    for (StatusInfo& info : page.jobs) freshen(info);
     return page;
 }
 
 std::optional<StatusInfo> JobQueue::dismiss(const std::string& id) {
     auto info = storage_.jobs().dismiss(id, now_millis());
-    {
-        const std::lock_guard lock(mutex_);
-        if (const auto found = running_.find(id); found != running_.end())
-            found->second->stop(StopReason::Dismissed);
-    }
+    if (const auto job = running_.find(id)) job->stop(StopReason::Dismissed);
+    if (info) teller_.ends(*info);
+    forecast_.outdated();
     tell_waiters();
     return info;
 }
@@ -152,7 +140,7 @@ Gauges JobQueue::gauges() const {
     gauges.jobs = figures.jobs;
     const auto waiting = figures.jobs.find(JobStatus::Accepted);
     gauges.queued = waiting == figures.jobs.end() ? 0 : waiting->second;
-    gauges.running = running().size();
+    gauges.running = running_.all().size();
     gauges.workers = static_cast<std::uint64_t>(options_.workers);
     if (figures.oldest_accepted)
         gauges.oldest_queued_seconds =
@@ -162,154 +150,31 @@ Gauges JobQueue::gauges() const {
     return gauges;
 }
 
-std::vector<std::shared_ptr<RunningJob>> JobQueue::running() const {
-    const std::lock_guard lock(mutex_);
-    std::vector<std::shared_ptr<RunningJob>> jobs;
-    for (const auto& [id, job] : running_) jobs.push_back(job);
-    return jobs;
-}
-
 void JobQueue::tell_waiters() {
     const std::lock_guard lock(mutex_);
     ++ends_;
     ended_.notify_all();
 }
 
-void JobQueue::work_until_stopped() {
-    while (!stopping_) {
-        std::uint64_t seen = 0;
-        {
-            const std::lock_guard lock(mutex_);
-            seen = arrivals_;
-        }
-        try {
-            if (auto claim = storage_.jobs().claim_next(now_millis())) {
-                run(std::move(*claim));
-                continue;
-            }
-        } catch (const std::exception& error) {
-            log_.error("claim-failed", {{"error", error.what()}});
-        }
-        std::unique_lock lock(mutex_);
-        wake_.wait_for(lock, kPoll, [&] { return stopping_ || arrivals_ != seen; });
-    }
-}
-
-void JobQueue::run(ClaimedJob claim) {
-    const double seconds = claim.info.parameters.max_seconds.value_or(options_.job_seconds);
-    const auto job =
-        std::make_shared<RunningJob>(std::move(claim), std::min(seconds, options_.job_seconds));
-    const std::string id = job->lease().job_id;
-    {
-        const std::lock_guard lock(mutex_);
-        running_[id] = job;
-    }
-    if (stopping_) job->stop(StopReason::Shutdown);
-    log_.info("job-started", {{"job", id}, {"attempt", job->info().attempt}});
-    try {
-        run_guarded(*job);
-    } catch (
-        const std::exception& error) {  // the store failed: the job is recovered at the next start
-        log_.error("job-not-stored", {{"job", id}, {"error", error.what()}});
-    }
-    {
-        const std::lock_guard lock(mutex_);
-        running_.erase(id);
-    }
-    tell_waiters();
-}
-
-void JobQueue::run_guarded(RunningJob& job) {
-    std::exception_ptr exception;
-    try {
-        const JobOutcome outcome = work_(job);
-        if (!job.stop_reason()) {
-            finish(job, job.info(), outcome);
-            return;
-        }
-    } catch (...) {
-        exception = std::current_exception();
-    }
-    if (job.stop_reason()) {
-        end_stopped(job);
-        return;
-    }
-    const Problem problem = problem_of(exception);
-    log_.warn("job-failed", {{"job", job.lease().job_id},
-                             {"code", std::string(problem.code())},
-                             {"error", what_of(exception)}});
-    fail(job, problem);
-}
-
-void JobQueue::end_stopped(RunningJob& job) {
-    switch (*job.stop_reason()) {
-        case StopReason::Dismissed:
-            telemetry_.observe_cancel(job.seconds_stopping());
-            log_.info("job-dismissed", {{"job", job.lease().job_id}});
-            return;
-        case StopReason::Shutdown:
-            storage_.jobs().give_back(job.lease(), now_millis());
-            log_.info("job-given-back", {{"job", job.lease().job_id}});
-            return;
-        case StopReason::TimedOut:
-            fail(job, problem_from(Error(ErrorCode::TimedOut,
-                                         "The job ran longer than it was allowed to (maxSeconds). "
-                                         "Allow more, or ask for less: a larger spacing, fewer "
-                                         "iterations.")));
-            return;
-    }
-}
-
-void JobQueue::fail(RunningJob& job, const Problem& problem) {
-    StatusInfo info = job.info();
-    info.exception = problem;
-    info.exception->instance = "/v1/jobs/" + info.job_id;
-    finish(job, info, {});
-}
-
-void JobQueue::finish(RunningJob& job, StatusInfo info, const JobOutcome& outcome) {
-    const UnixMillis now = now_millis();
-    const bool failed = info.exception.has_value();
-    info.status = failed ? JobStatus::Failed : JobStatus::Successful;
-    info.message = failed ? info.exception->detail : "Done.";
-    info.finished = now;
-    info.updated = now;
-    info.expires = now + options_.result_retention;
-    info.eta_seconds.reset();
-    if (!failed) {
-        info.progress = 100;
-        info.phase = "done";
-        info.phase_progress.reset();
-    }
-    auto dictionary = outcome.dictionary;
-    if (dictionary) dictionary->expires = *info.expires;
-    if (!storage_.jobs().finish(job.lease(), info, outcome.results, dictionary)) return;
-    telemetry_.count_job(process_id(info.process), status_name(info.status), job.seconds());
-    log_.info("job-finished", {{"job", info.job_id},
-                               {"status", std::string(status_name(info.status))},
-                               {"seconds", job.seconds()}});
-}
-
-void JobQueue::watch() {
-    for (int tick = 1; !stopping_; ++tick) {
+void JobQueue::watch(const std::stop_token& stop) {
+    for (int tick = 1; !stop.stop_requested(); ++tick) {
         std::this_thread::sleep_for(kTick);
-        const auto jobs = running();
-        for (const auto& job : jobs)
+        const bool save = tick % kTicksPerSave == 0;
+        for (const auto& job : running_.all()) {
             if (job->is_overdue()) job->stop(StopReason::TimedOut);
-        if (tick % kTicksPerSave == 0) store_progress(jobs);
+            if (job->stop_reason()) continue;
+            teller_.moves(job->info(), save);
+            if (save) save_progress(*job);
+        }
     }
 }
 
-void JobQueue::store_progress(const std::vector<std::shared_ptr<RunningJob>>& jobs) {
-    for (const auto& job : jobs) {
-        try {
-            // A void lease means that another hand has taken the job: its work is of no use any
-            // more.
-            if (!storage_.jobs().save_progress(job->lease(), job->info()))
-                job->stop(StopReason::Dismissed);
-        } catch (const std::exception& error) {
-            log_.error("progress-not-stored", {{"error", error.what()}});
-        }
+void JobQueue::save_progress(RunningJob& job) {
+    try {
+        if (!storage_.jobs().save_progress(job.lease(), job.info(), now_millis()))
+            leases_.lost(job);  // its work is of no use any more
+    } catch (const std::exception& error) {
+        log_.error("progress-not-stored", {{"error", error.what()}});
     }
 }
 

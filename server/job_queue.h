@@ -3,14 +3,16 @@
 #include <atomic>
 #include <condition_variable>
 #include <functional>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
 
+#include "server/job_teller.h"
+#include "server/lease_keeper.h"
 #include "server/log.h"
-#include "server/running_job.h"
+#include "server/queue_forecast.h"
+#include "server/running_jobs.h"
 #include "server/storage.h"
 #include "server/telemetry.h"
 
@@ -21,18 +23,22 @@ using JobWork = std::function<JobOutcome(RunningJob&)>;
 
 struct QueueOptions {
     int workers = 1;
-    std::uint64_t max_waiting = 1000;
-    std::uint64_t max_attempts = 3;
+    QueueLimits limits = {};
+    std::uint64_t small_points = 100'000;  ///< jobs up to this size are small
+    std::uint64_t running_per_owner = 0;   ///< 0: any number
+    LeaseOptions leases = {};
     double job_seconds = 3600;
     UnixMillis result_retention = 7LL * 24 * 3600 * 1000;
     int max_waiters = 8;  ///< requests that may wait for a job at a time
 };
 
-/// Runs the jobs of the store, oldest first, a few at a time. The store is the truth; what is kept
-/// here is only the fresher state of jobs that run right now.
+/// Runs the jobs of the store, a few at a time: small ones are not stuck behind large ones, and the
+/// owners of jobs take turns (scheduling.h). The store is the truth; what is kept here is only the
+/// fresher state of jobs that run right now.
 class JobQueue {
 public:
-    JobQueue(Storage& storage, Log& log, Telemetry& telemetry, QueueOptions options, JobWork work);
+    JobQueue(Storage& storage, JobEvents& events, Log& log, Telemetry& telemetry,
+             QueueOptions options, JobWork work);
     ~JobQueue();
 
     /// Takes up what an earlier run of the server left, and starts the workers.
@@ -45,12 +51,12 @@ public:
     void stop();
 
     /// Makes a job durable and lets it run when its turn comes.
-    /// @throws ProblemException{QueueFull, Unavailable}
-    void submit(const StatusInfo& job);
+    /// @throws ProblemException{QueueFull, QuotaExceeded, IdempotencyConflict, Unavailable, ...}
+    void submit(const NewJob& job);
 
     /// A job with the freshest state there is.
-    [[nodiscard]] std::optional<StoredJob> find(const std::string& id) const;
-    [[nodiscard]] JobPage list(const JobFilter& filter) const;
+    [[nodiscard]] std::optional<StoredJob> find(const std::string& id);
+    [[nodiscard]] JobPage list(const JobFilter& filter);
 
     /// Ends a job for good; one that runs stops within a second.
     /// @returns nothing if there is no such job, or it was dismissed before
@@ -68,14 +74,17 @@ public:
 
 private:
     void work_until_stopped();
-    void run(ClaimedJob claim);
-    void finish(RunningJob& job, StatusInfo info, const JobOutcome& outcome);
-    void fail(RunningJob& job, const Problem& problem);
-    void end_stopped(RunningJob& job);
+    [[nodiscard]] RunningJobs::Pointer claim();
+    void run(RunningJob& job);
     void run_guarded(RunningJob& job);
-    void watch();
-    void store_progress(const std::vector<std::shared_ptr<RunningJob>>& jobs);
-    [[nodiscard]] std::vector<std::shared_ptr<RunningJob>> running() const;
+    void end_stopped(RunningJob& job);
+    void finish(RunningJob& job, const StatusInfo& info, const JobOutcome& outcome);
+    [[nodiscard]] bool store_end(RunningJob& job, const StatusInfo& info,
+                                 const JobOutcome& outcome);
+    void watch(const std::stop_token& stop);
+    void save_progress(RunningJob& job);
+    void freshen(StatusInfo& info);
+    void queue_grew();
     void tell_waiters();
     [[nodiscard]] bool has_ended(const std::string& id) const;
 
@@ -86,15 +95,21 @@ private:
     JobWork work_;
     Clock::time_point started_ = Clock::now();
 
+    RunningJobs running_;
+    QueueForecast forecast_;
+    JobTeller teller_;
+    LeaseKeeper leases_;
+
+    std::mutex claim_mutex_;  // the choice of a job depends on what runs here
     mutable std::mutex mutex_;
     std::condition_variable wake_;   // a job may be waiting, or the end has come
     std::condition_variable ended_;  // a job has ended
-    std::map<std::string, std::shared_ptr<RunningJob>> running_;
-    std::uint64_t ends_ = 0;  // jobs that have ended so far
+    std::uint64_t ends_ = 0;         // jobs that have ended so far
     std::uint64_t arrivals_ = 0;
     std::atomic<int> waiters_ = 0;
     std::atomic<bool> stopping_ = false;
-    std::vector<std::jthread> threads_;
+    std::vector<std::jthread> workers_;
+    std::jthread watcher_;
 };
 
 }  // namespace lpf::server

@@ -26,12 +26,14 @@ int quantization_bits(const JobInputs& inputs, const Points& points, double mean
 
 ResultWriter::ResultWriter(Storage& storage, RunningJob& job, std::string version)
     : storage_(storage), job_(job), version_(std::move(version)) {
-    outcome_.files_held = storage_.adding();
+    outcome_.files_held = FileHold(storage_);
 }
 
 void ResultWriter::store(ResultKind kind, std::string_view type, const std::string& bytes) {
+    const auto writer = storage_.blobs().create();
+    writer->write(bytes);
     outcome_.results.push_back(
-        {kind, std::string(type), bytes.size(), storage_.blobs().put(bytes)});
+        {kind, std::string(type), bytes.size(), outcome_.files_held.commit(*writer)});
 }
 
 void ResultWriter::add_points(const Document& document, const JobInputs& inputs,

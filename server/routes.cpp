@@ -31,6 +31,7 @@ Router public_routes(Services& services) {
             {"DELETE", "/v1/jobs/{id}", to(dismiss_job)},
             {"GET", "/v1/jobs/{id}/events", to(get_events)},
             {"GET", "/v1/jobs/{id}/preview", to(get_job_preview)},
+            {"POST", "/v1/jobs/{id}/retry", to(retry_job)},
             {"GET", "/v1/jobs/{id}/results", to(list_results)},
             {"GET", "/v1/jobs/{id}/results/points", to(get_points)},
             {"GET", "/v1/jobs/{id}/results/dictionary", to(get_dictionary_result)},

@@ -11,6 +11,8 @@ constexpr double kFarAway = 1e8;  // seconds; keeps the deadline within the cloc
 
 RunningJob::RunningJob(ClaimedJob claim, double seconds_allowed)
     : lease_(std::move(claim.lease)),
+      points_(claim.points),
+      lease_until_(claim.lease_until),
       deadline_(started_ + std::chrono::duration_cast<Clock::duration>(
                                std::chrono::duration<double>(std::min(seconds_allowed, kFarAway)))),
       info_(std::move(claim.info)) {}
@@ -56,14 +58,15 @@ void RunningJob::set_eta() {
     info_.eta_seconds = seconds() * (100.0 - info_.progress) / info_.progress;
 }
 
-void RunningJob::stop(StopReason reason) {
+bool RunningJob::stop(StopReason reason) {
     {
         const std::lock_guard lock(mutex_);
-        if (reason_) return;
+        if (reason_) return false;
         reason_ = reason;
         stopped_ = Clock::now();
     }
     stop_.request_stop();
+    return true;
 }
 
 std::optional<StopReason> RunningJob::stop_reason() const {

@@ -1,25 +1,25 @@
 #pragma once
 
+#include <atomic>
 #include <mutex>
 #include <optional>
-#include <shared_mutex>
 #include <stop_token>
 #include <vector>
 
 #include "core/base/progress.h"
 #include "server/clock.h"
-#include "server/job_store.h"
+#include "server/storage.h"
 
 namespace lpf::server {
 
 /// Why a running job was told to stop.
-enum class StopReason { Dismissed, TimedOut, Shutdown };
+enum class StopReason { Dismissed, TimedOut, Shutdown, LeaseLost };
 
 /// What a job leaves behind when it succeeds.
 struct JobOutcome {
     std::vector<ResultFile> results;
     std::optional<StoredDictionary> dictionary;
-    std::shared_lock<std::shared_mutex> files_held;  ///< until the books name the files
+    FileHold files_held;  ///< until the books name the files
 };
 
 /// A job while a worker has it: its state in memory, always fresh, and the switch that stops it.
@@ -28,8 +28,11 @@ public:
     RunningJob(ClaimedJob claim, double seconds_allowed);
 
     [[nodiscard]] const Lease& lease() const { return lease_; }
+    [[nodiscard]] std::uint64_t points() const { return points_; }  ///< of its shape
     [[nodiscard]] StatusInfo info() const;
     [[nodiscard]] std::stop_token stop_token() const { return stop_.get_token(); }
+    [[nodiscard]] UnixMillis lease_until() const { return lease_until_; }
+    void lease_holds_until(UnixMillis time) { lease_until_ = time; }
     [[nodiscard]] double seconds() const { return seconds_since(started_); }
 
     /// Changes the state under the lock.
@@ -49,8 +52,8 @@ public:
     /// Enters a phase that does not count for itself.
     void enter_phase(const std::string& phase, double percent);
 
-    /// Only the first reason counts.
-    void stop(StopReason reason);
+    /// Only the first reason counts. @returns false if there was one before
+    bool stop(StopReason reason);
     [[nodiscard]] std::optional<StopReason> stop_reason() const;
     /// Since the stop was asked for.
     [[nodiscard]] double seconds_stopping() const;
@@ -60,6 +63,8 @@ private:
     void set_eta();
 
     Lease lease_;
+    std::uint64_t points_;
+    std::atomic<UnixMillis> lease_until_;
     Clock::time_point started_ = Clock::now();
     Clock::time_point deadline_;
     std::stop_source stop_;

@@ -6,6 +6,7 @@
 #include "server/clock.h"
 #include "server/config.h"
 #include "server/data_dir.h"
+#include "server/idempotency.h"
 #include "server/job_events.h"
 #include "server/job_queue.h"
 #include "server/log.h"
@@ -29,6 +30,8 @@ struct Services {
     /// Seats for the decoding of files within requests: each may need much memory.
     static constexpr int kDecoders = 2;
     std::counting_semaphore<kDecoders> decoders{kDecoders};
+
+    RequestsInFlight in_flight;
 
     [[nodiscard]] const Limits& limits() const { return config.limits; }
     [[nodiscard]] UnixMillis result_retention() const {

@@ -2,7 +2,8 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,10 +17,12 @@ namespace lpf::server {
 
 using SqlValue = std::variant<std::nullptr_t, std::int64_t, std::string>;
 
+class SqliteDatabase;
+
 /// One prepared statement while it runs: bind in the constructor, then step through the rows.
 class SqlRows {
 public:
-    SqlRows(sqlite3* db, std::string_view sql, const std::vector<SqlValue>& values);
+    SqlRows(SqliteDatabase& db, std::string_view sql, const std::vector<SqlValue>& values);
     ~SqlRows();
     SqlRows(const SqlRows&) = delete;
     SqlRows& operator=(const SqlRows&) = delete;
@@ -30,12 +33,13 @@ public:
     [[nodiscard]] std::int64_t integer(int column) const;
 
 private:
-    sqlite3* db_;
-    sqlite3_stmt* statement_ = nullptr;
+    SqliteDatabase& db_;
+    sqlite3_stmt* statement_;
 };
 
 /// A connection to an SQLite database: WAL, every commit on the disk before it returns. For one
-/// thread at a time. All functions throw Error{StorageFailure}.
+/// thread at a time. All functions throw Error{StorageFailure}, and
+/// ProblemException{InsufficientStorage} when the disk is full.
 class SqliteDatabase {
 public:
     enum class Mode { ReadWrite, ReadOnly };
@@ -52,8 +56,18 @@ public:
 
     [[nodiscard]] std::int64_t user_version();
 
+    /// Moves what is in the write-ahead log into the file, and empties it. Never throws.
+    void checkpoint();
+
 private:
+    friend class SqlRows;
+    [[noreturn]] void close_and_fail(const std::string& what);
+    sqlite3_stmt* take_statement(std::string_view sql);
+    void put_back(sqlite3_stmt* statement);
+
     sqlite3* db_ = nullptr;
+    // Prepared and not in use. A text that is in use twice is prepared twice.
+    std::multimap<std::string, sqlite3_stmt*, std::less<>> statements_;
 };
 
 /// Rolls back unless committed.

@@ -2,77 +2,26 @@
 
 #include <nlohmann/json.hpp>
 
-#include "api/http_text.h"
 #include "api/json_text.h"
 #include "api/parameters.h"
 #include "api/problem.h"
-#include "core/base/error.h"
-#include "server/ids.h"
+#include "server/folder.h"
+#include "server/sqlite_records.h"
 #include "server/sqlite_schema.h"
 
 namespace lpf::server {
+
+using namespace records;
+
 namespace {
 
-using nlohmann::json;
-
-std::int64_t as_integer(std::uint64_t value) { return static_cast<std::int64_t>(value); }
-
-json parse_stored(const std::string& text) {
-    json document = json::parse(text, nullptr, false);
-    if (document.is_discarded())
-        throw Error(ErrorCode::StorageFailure, "A record of the job database is damaged.");
-    return document;
+ShapeInfo extended(SqliteDatabase& db, ShapeInfo shape, UnixMillis expires) {
+    if (shape.expires.value_or(0) >= expires) return shape;
+    shape.expires = expires;
+    db.run("UPDATE shapes SET expires = ?, document = ? WHERE id = ?",
+           {expires, dump_json(to_json(shape)), shape.id});
+    return shape;
 }
-
-StatusInfo status_from_text(const std::string& text) {
-    return status_from_json(parse_stored(text));
-}
-
-std::string text_of(const StatusInfo& info) { return dump_json(to_json(info)); }
-
-SqlValue optional_time(const std::optional<UnixMillis>& time) {
-    return time ? SqlValue(*time) : SqlValue(nullptr);
-}
-
-/// Rows are numbered from 1, newest first: the cursor is the last number of the page before.
-std::int64_t before(const std::string& cursor) {
-    if (cursor.empty()) return std::numeric_limits<std::int64_t>::max();
-    const auto number = parse_number(cursor);
-    if (!number) {
-        throw ProblemException(
-            {.problem = ProblemCode::InvalidParameter,
-             .detail = "The cursor is not one that a list gave.",
-             .errors = {{"/cursor", "Take the link `next` of a list as it is."}}});
-    }
-    return static_cast<std::int64_t>(*number);
-}
-
-ResultKind kind_from_name(const std::string& name) {
-    for (const ResultKind kind :
-         {ResultKind::Points, ResultKind::Dictionary, ResultKind::Report, ResultKind::Fields})
-        if (result_name(kind) == name) return kind;
-    throw Error(ErrorCode::StorageFailure, "A record of the job database is damaged.");
-}
-
-std::vector<ResultFile> read_results(SqliteDatabase& db, const std::string& job_id) {
-    std::vector<ResultFile> results;
-    auto rows =
-        db.query("SELECT name, type, bytes, sha256 FROM results WHERE job_id = ?", {job_id});
-    while (rows.next()) {
-        results.push_back({kind_from_name(rows.text(0)), rows.text(1),
-                           static_cast<std::uint64_t>(rows.integer(2)), rows.text(3)});
-    }
-    return results;
-}
-
-std::optional<ShapeInfo> read_shape(SqliteDatabase& db, const std::string& where,
-                                    const std::string& value) {
-    auto rows = db.query("SELECT document FROM shapes WHERE " + where + " = ?", {value});
-    if (!rows.next()) return std::nullopt;
-    return shape_from_json(parse_stored(rows.text(0)));
-}
-
-constexpr const char* kUnfinished = "status IN ('accepted', 'running')";
 
 StoredDictionary dictionary_in(const SqlRows& rows) {
     return {rows.text(1),    rows.text(2),    rows.text(3),
@@ -85,16 +34,22 @@ constexpr const char* kDictionaryColumns =
 }  // namespace
 
 SqliteJobStore::SqliteJobStore(const std::filesystem::path& file)
-    : writer_(file, SqliteDatabase::Mode::ReadWrite),
-      reader_((create_schema(writer_), file), SqliteDatabase::Mode::ReadOnly) {}
+    : write_connection_(file, SqliteDatabase::Mode::ReadWrite),
+      writer_((create_schema(write_connection_), write_connection_)),
+      reader_(file, SqliteDatabase::Mode::ReadOnly) {
+    sync_folder(std::filesystem::absolute(file).parent_path());  // the new file has a name for good
+}
+
+SqliteJobStore::~SqliteJobStore() { write_connection_.checkpoint(); }
 
 ShapeInfo SqliteJobStore::add_shape(const ShapeInfo& shape) {
-    const std::lock_guard lock(write_mutex_);
-    if (auto known = read_shape(writer_, "sha256", shape.sha256))
-        return *extend_shape(std::move(known), shape.expires.value_or(0));
-    writer_.run("INSERT INTO shapes (id, sha256, expires, document) VALUES (?, ?, ?, ?)",
-                {shape.id, shape.sha256, shape.expires.value_or(0), dump_json(to_json(shape))});
-    return shape;
+    return writer_.write([&](SqliteDatabase& db) {
+        if (auto known = read_shape(db, "sha256", shape.sha256))
+            return extended(db, *std::move(known), shape.expires.value_or(0));
+        db.run("INSERT INTO shapes (id, sha256, expires, document) VALUES (?, ?, ?, ?)",
+               {shape.id, shape.sha256, shape.expires.value_or(0), dump_json(to_json(shape))});
+        return shape;
+    });
 }
 
 std::optional<ShapeInfo> SqliteJobStore::find_shape(const std::string& id) const {
@@ -109,75 +64,44 @@ std::optional<ShapeInfo> SqliteJobStore::find_shape_by_digest(const std::string&
 
 std::optional<ShapeInfo> SqliteJobStore::keep_shape_until(const std::string& id,
                                                           UnixMillis expires) {
-    const std::lock_guard lock(write_mutex_);
-    return extend_shape(read_shape(writer_, "id", id), expires);
-}
-
-std::optional<ShapeInfo> SqliteJobStore::extend_shape(std::optional<ShapeInfo> shape,
-                                                      UnixMillis expires) {
-    if (!shape || shape->expires.value_or(0) >= expires) return shape;
-    shape->expires = expires;
-    writer_.run("UPDATE shapes SET expires = ?, document = ? WHERE id = ?",
-                {expires, dump_json(to_json(*shape)), shape->id});
-    return shape;
+    return writer_.write([&](SqliteDatabase& db) -> std::optional<ShapeInfo> {
+        auto shape = read_shape(db, "id", id);
+        if (!shape) return std::nullopt;
+        return extended(db, *std::move(shape), expires);
+    });
 }
 
 bool SqliteJobStore::remove_shape(const std::string& id) {
-    const std::lock_guard lock(write_mutex_);
-    SqlTransaction transaction(writer_);
-    {
-        auto rows = writer_.query(
-            std::string("SELECT id FROM jobs WHERE shape = ? AND ") + kUnfinished, {id});
+    return writer_.write([&](SqliteDatabase& db) {
+        auto rows = db.query(
+            "SELECT id FROM jobs WHERE shape = ? AND status IN ('accepted', 'running')", {id});
         if (rows.next()) {
             throw ProblemException(ProblemCode::ShapeInUse,
                                    "Job " + rows.text(0) +
                                        " still needs this shape. Dismiss it, or wait for its end.");
         }
-    }
-    const bool removed = writer_.run("DELETE FROM shapes WHERE id = ?", {id}) > 0;
-    transaction.commit();
-    return removed;
-}
-
-void SqliteJobStore::add_job(const StatusInfo& job, std::uint64_t max_waiting) {
-    const std::lock_guard lock(write_mutex_);
-    SqlTransaction transaction(writer_);
-    {
-        auto waiting = writer_.query("SELECT count(*) FROM jobs WHERE status = 'accepted'");
-        if (waiting.next() && waiting.integer(0) >= as_integer(max_waiting)) {
-            throw ProblemException(
-                {.problem = ProblemCode::QueueFull,
-                 .detail = "The queue is full: " + std::to_string(max_waiting) +
-                           " jobs wait already (queuedJobs). Try again in a while.",
-                 .retry_after = 10});
-        }
-    }
-    if (!read_shape(writer_, "id", job.shape))
-        throw ProblemException(ProblemCode::ShapeNotFound, "The shape of this job was deleted.");
-    writer_.run(
-        "INSERT INTO jobs (id, process, status, shape, created, expires, document) "
-        "VALUES (?, ?, ?, ?, ?, ?, ?)",
-        {job.job_id, std::string(process_id(job.process)), std::string(status_name(job.status)),
-         job.shape, job.created, optional_time(job.expires), text_of(job)});
-    transaction.commit();
+        return db.run("DELETE FROM shapes WHERE id = ?", {id}) > 0;
+    });
 }
 
 std::optional<StoredJob> SqliteJobStore::find_job(const std::string& id) const {
     const std::lock_guard lock(read_mutex_);
-    StoredJob job;
-    {
-        auto rows = reader_.query(
-            "SELECT document, status, (SELECT count(*) FROM jobs AS other WHERE "
-            "other.status = 'accepted' AND other.number <= jobs.number) FROM jobs WHERE id = ?",
-            {id});
-        if (!rows.next()) return std::nullopt;
-        job.info = status_from_text(rows.text(0));
-        if (rows.text(1) == "accepted")
-            job.info.queue_position = static_cast<std::uint64_t>(rows.integer(2));
-    }
-    job.results = read_results(reader_, id);
+    auto info = read_job(reader_, id);
+    if (!info) return std::nullopt;
+    StoredJob job{.info = *std::move(info), .results = read_results(reader_, id)};
     job.results_expired = job.info.status == JobStatus::Successful && job.results.empty();
+    auto retries = reader_.query("SELECT id FROM jobs WHERE retry_of = ? ORDER BY number", {id});
+    while (retries.next()) job.info.retries.push_back(retries.text(0));
     return job;
+}
+
+std::optional<MarkedRequest> SqliteJobStore::find_request(const std::string& owner,
+                                                          const std::string& key) const {
+    const std::lock_guard lock(read_mutex_);
+    auto rows = reader_.query(
+        "SELECT fingerprint, job_id FROM requests WHERE owner = ? AND key = ?", {owner, key});
+    if (!rows.next()) return std::nullopt;
+    return MarkedRequest{rows.text(0), rows.text(1)};
 }
 
 JobPage SqliteJobStore::list_jobs(const JobFilter& filter) const {
@@ -194,7 +118,7 @@ JobPage SqliteJobStore::list_jobs(const JobFilter& filter) const {
         values.emplace_back(std::string(process_id(*filter.process)));
     }
     sql += " ORDER BY number DESC LIMIT ?";
-    values.emplace_back(as_integer(filter.limit + 1));
+    values.emplace_back(number(filter.limit + 1));
 
     JobPage page;
     std::int64_t last = 0;
@@ -238,7 +162,7 @@ DictionaryPage SqliteJobStore::list_dictionaries(std::size_t limit,
     const std::lock_guard lock(read_mutex_);
     auto rows = reader_.query(
         std::string(kDictionaryColumns) + "WHERE number < ? ORDER BY number DESC LIMIT ?",
-        {before(cursor), as_integer(limit + 1)});
+        {before(cursor), number(limit + 1)});
     while (rows.next()) {
         if (page.dictionaries.size() == limit) {
             page.next_cursor = std::to_string(last);
@@ -251,8 +175,8 @@ DictionaryPage SqliteJobStore::list_dictionaries(std::size_t limit,
 }
 
 bool SqliteJobStore::refers_to(const std::string& sha256) const {
-    const std::lock_guard lock(write_mutex_);  // the writer sees what the reader may not see yet
-    auto rows = writer_.query(
+    const std::lock_guard lock(read_mutex_);
+    auto rows = reader_.query(
         "SELECT 1 FROM shapes WHERE sha256 = ?1 UNION ALL SELECT 1 FROM results WHERE sha256 = ?1 "
         "UNION ALL SELECT 1 FROM dictionaries WHERE sha256 = ?1 LIMIT 1",
         {sha256});
@@ -260,9 +184,9 @@ bool SqliteJobStore::refers_to(const std::string& sha256) const {
 }
 
 std::set<std::string> SqliteJobStore::all_digests() const {
-    const std::lock_guard lock(write_mutex_);
+    const std::lock_guard lock(read_mutex_);
     std::set<std::string> digests;
-    auto rows = writer_.query(
+    auto rows = reader_.query(
         "SELECT sha256 FROM shapes UNION SELECT sha256 FROM results UNION "
         "SELECT sha256 FROM dictionaries");
     while (rows.next()) digests.insert(rows.text(0));

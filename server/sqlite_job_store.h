@@ -5,6 +5,7 @@
 
 #include "server/job_store.h"
 #include "server/sqlite.h"
+#include "server/sqlite_writer.h"
 
 namespace lpf::server {
 
@@ -14,6 +15,9 @@ class SqliteJobStore : public JobStore {
 public:
     /// Opens or makes the file. @throws Error{StorageFailure}, also for a file of a newer program
     explicit SqliteJobStore(const std::filesystem::path& file);
+    ~SqliteJobStore() override;
+    SqliteJobStore(const SqliteJobStore&) = delete;
+    SqliteJobStore& operator=(const SqliteJobStore&) = delete;
 
     ShapeInfo add_shape(const ShapeInfo& shape) override;
     [[nodiscard]] std::optional<ShapeInfo> find_shape(const std::string& id) const override;
@@ -22,18 +26,24 @@ public:
     std::optional<ShapeInfo> keep_shape_until(const std::string& id, UnixMillis expires) override;
     bool remove_shape(const std::string& id) override;
 
-    void add_job(const StatusInfo& job, std::uint64_t max_waiting) override;
+    void add_job(const NewJob& job, const QueueLimits& limits) override;
+    [[nodiscard]] std::optional<MarkedRequest> find_request(const std::string& owner,
+                                                            const std::string& key) const override;
     [[nodiscard]] std::optional<StoredJob> find_job(const std::string& id) const override;
     [[nodiscard]] JobPage list_jobs(const JobFilter& filter) const override;
     [[nodiscard]] QueueFigures figures() const override;
+    [[nodiscard]] std::vector<WaitingJob> waiting() const override;
+    [[nodiscard]] std::vector<PastJob> past_jobs(std::size_t limit) const override;
 
-    std::optional<ClaimedJob> claim_next(UnixMillis now) override;
-    bool save_progress(const Lease& lease, const StatusInfo& info) override;
+    std::optional<ClaimedJob> claim_next(const ClaimRequest& request) override;
+    bool extend(const Lease& lease, UnixMillis now, UnixMillis until) override;
+    bool save_progress(const Lease& lease, const StatusInfo& info, UnixMillis now) override;
     bool finish(const Lease& lease, const StatusInfo& info, const std::vector<ResultFile>& results,
-                const std::optional<StoredDictionary>& dictionary) override;
+                const std::optional<StoredDictionary>& dictionary, UnixMillis now) override;
     bool give_back(const Lease& lease, UnixMillis now) override;
     std::optional<StatusInfo> dismiss(const std::string& id, UnixMillis now) override;
-    std::size_t recover(std::uint64_t max_attempts, UnixMillis now) override;
+    std::vector<StatusInfo> take_back_expired(std::uint64_t max_attempts, UnixMillis now) override;
+    std::vector<StatusInfo> take_back_all(std::uint64_t max_attempts, UnixMillis now) override;
 
     [[nodiscard]] std::optional<StoredDictionary> find_dictionary(
         const std::string& id) const override;
@@ -45,15 +55,13 @@ public:
     [[nodiscard]] std::set<std::string> all_digests() const override;
 
 private:
-    std::optional<ShapeInfo> extend_shape(std::optional<ShapeInfo> shape, UnixMillis expires);
-    /// Writes the document of a job, provided that the lease still holds (if one is given).
-    bool write_document(const StatusInfo& info, const std::string& lease);
-    [[nodiscard]] std::optional<StatusInfo> read_document(const std::string& id);
+    std::vector<StatusInfo> take_back(std::uint64_t max_attempts, UnixMillis now,
+                                      UnixMillis leases_until);
 
-    // Readers do not wait for a writer that waits for the disk: two connections, each with a lock.
-    mutable std::mutex write_mutex_;
+    // Readers do not wait for a writer that waits for the disk: two connections.
+    SqliteDatabase write_connection_;
+    SqliteWriter writer_;
     mutable std::mutex read_mutex_;
-    mutable SqliteDatabase writer_;
     mutable SqliteDatabase reader_;
 };
 

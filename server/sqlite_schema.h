@@ -4,7 +4,8 @@
 
 namespace lpf::server {
 
-/// Makes the tables in a new file. @throws Error{StorageFailure} if a newer program made them
+/// Makes the tables in a new file, and brings those of an older program up to date.
+/// @throws Error{StorageFailure} if a newer program made them, or the file is damaged
 void create_schema(SqliteDatabase& db);
 
 }  // namespace lpf::server

@@ -1,6 +1,8 @@
 #pragma once
 
-#include <shared_mutex>
+#include <mutex>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "server/blob_store.h"
@@ -8,17 +10,36 @@
 
 namespace lpf::server {
 
+class Storage;
+
+/// Files that are being added: while this lives they are not swept away, although the books do not
+/// name them yet.
+class FileHold {
+public:
+    FileHold() = default;
+    explicit FileHold(Storage& storage) : storage_(&storage) {}
+    ~FileHold() { release(); }
+    FileHold(FileHold&& other) noexcept { *this = std::move(other); }
+    FileHold& operator=(FileHold&& other) noexcept;
+
+    /// Makes the bytes of a writer durable, and holds them. @returns the digest
+    std::string commit(BlobWriter& writer);
+
+private:
+    void release();
+
+    Storage* storage_ = nullptr;
+    std::vector<std::string> digests_;
+};
+
 /// The books and the files together. A blob is written before the books name it, and must not be
-/// swept away in between: whoever does both holds `adding()` meanwhile.
+/// swept away in between: whoever does both holds it meanwhile.
 class Storage {
 public:
     Storage(JobStore& jobs, BlobStore& blobs) : jobs_(jobs), blobs_(blobs) {}
 
     [[nodiscard]] JobStore& jobs() { return jobs_; }
     [[nodiscard]] BlobStore& blobs() { return blobs_; }
-
-    /// Held from the commit of a blob until the books name it.
-    [[nodiscard]] std::shared_lock<std::shared_mutex> adding() { return std::shared_lock(mutex_); }
 
     /// Deletes those of the blobs that the books no longer name.
     void forget(const std::vector<std::string>& digests);
@@ -28,9 +49,13 @@ public:
     std::size_t sweep(UnixMillis now, UnixMillis status_retention);
 
 private:
+    friend class FileHold;
+    void remove_if_unknown(const std::string& digest);
+
     JobStore& jobs_;
     BlobStore& blobs_;
-    std::shared_mutex mutex_;
+    std::mutex mutex_;  // a file is either being held or being removed
+    std::multiset<std::string> held_;
 };
 
 }  // namespace lpf::server

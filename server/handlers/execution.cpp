@@ -6,13 +6,21 @@
 #include "api/parameters.h"
 #include "api/results.h"
 #include "server/answer.h"
-#include "server/handlers/handlers.h"
+#include "server/handlers/job_request.h"
 #include "server/handlers/lookup.h"
-#include "server/ids.h"
 #include "server/ingest.h"
+#include "server/sha256.h"
 
 namespace lpf::server {
 namespace {
+
+/// A body as it came: a file with inputs, or a JSON text.
+struct Sent {
+    std::optional<Upload> upload = {};
+    JobInputs inputs = {};
+    std::string text = {};
+    std::string digest = {};  ///< of what was sent
+};
 
 /// What is to be done with which shape.
 struct Order {
@@ -24,61 +32,65 @@ std::multimap<std::string, std::string> query_inputs(const http::Request& reques
     return {request.query.begin(), request.query.end()};
 }
 
-Order order_from_json(Services& services, const http::Request& request, Task task) {
+Sent receive_json(Services& services, const http::Request& request) {
     allow_query(request, {});
-    const std::string text = receive_text(services, request);
-    const ExecuteRequest wanted =
-        execute_request_from_json(task, parse_json(text, services.limits()), services.limits());
-    return {require_shape(services, wanted.shape), wanted.inputs};
+    Sent sent{.text = receive_text(services, request)};
+    sent.digest = sha256_of(sent.text);
+    return sent;
 }
 
-Order order_from_form(Services& services, const http::Request& request, Task task) {
-    Upload upload = receive_form(services, request);
+/// The digest is that of the parts: a boundary is another each time.
+Sent receive_filled_form(Services& services, const http::Request& request, Task task) {
+    Sent sent{.upload = receive_form(services, request)};
     auto fields = query_inputs(request);
-    fields.merge(upload.fields);
-    JobInputs inputs = inputs_from_query(task, fields, services.limits());
-    return {store_shape(services, std::move(upload)).info, std::move(inputs)};
+    Sha256 hash;
+    for (const auto& [name, value] : sent.upload->fields)
+        hash.update(std::to_string(name.size()) + ":" + name + std::to_string(value.size()) + ":" +
+                    value);
+    hash.update(sent.upload->file->digest());
+    sent.digest = hash.finish();
+    fields.merge(sent.upload->fields);
+    sent.inputs = inputs_from_query(task, fields, services.limits());
+    return sent;
 }
 
 /// Any other type, curl's default of a web form included: what the bytes are is seen from the
 /// bytes.
-Order order_from_file(Services& services, const http::Request& request, Task task) {
-    JobInputs inputs = inputs_from_query(task, query_inputs(request), services.limits());
-    return {store_shape(services, receive_file(services, request)).info, std::move(inputs)};
+Sent receive_bare_file(Services& services, const http::Request& request, Task task) {
+    Sent sent{.inputs = inputs_from_query(task, query_inputs(request), services.limits())};
+    sent.upload = receive_file(services, request);
+    sent.digest = sent.upload->file->digest();
+    return sent;
 }
 
-Order read_order(Services& services, const http::Request& request, Task task) {
+Sent receive(Services& services, const http::Request& request, Task task) {
     const std::string type = bare_media_type(request.header("content-type").value_or(""));
-    if (type == "application/json") return order_from_json(services, request, task);
-    if (type == "multipart/form-data") return order_from_form(services, request, task);
-    return order_from_file(services, request, task);
+    if (type == "application/json") return receive_json(services, request);
+    if (type == "multipart/form-data") return receive_filled_form(services, request, task);
+    return receive_bare_file(services, request, task);
 }
 
-StatusInfo make_job(Services& services, Task task, const Order& order) {
-    require_workable(order.shape);
-    if (order.inputs.dictionary) (void)require_dictionary(services, *order.inputs.dictionary);
-    StatusInfo job;
-    job.job_id = new_id();
-    job.process = task;
-    job.message = "Waiting for a worker.";
-    job.created = job.updated = now_millis();
+Order order_from(Services& services, Task task, Sent sent) {
+    if (sent.upload)
+        return {store_shape(services, *std::move(sent.upload)).info, std::move(sent.inputs)};
+    ExecuteRequest wanted = execute_request_from_json(
+        task, parse_json(sent.text, services.limits()), services.limits());
+    (void)require_shape(services, wanted.shape);
+    const auto shape = services.storage.jobs().keep_shape_until(
+        wanted.shape, now_millis() + services.result_retention());
+    if (!shape) throw ProblemException(ProblemCode::ShapeNotFound, "The shape was deleted.");
+    return {*shape, std::move(wanted.inputs)};
+}
+
+/// @returns ID of the job
+std::string make_job(Services& services, Task task, Sent sent, JobRequest& wish) {
+    const Order order = order_from(services, task, std::move(sent));
+    StatusInfo job = new_job(task, order.shape);
     job.parameters = order.inputs;
-    job.shape = order.shape.id;
-    job.warnings = order.shape.warnings;
-    return job;
-}
-
-http::Response with_job_links(http::Response response, const std::string& id) {
-    const std::string path = "/v1/jobs/" + id;
-    response.set("Location", path);
-    response.set("Link", "<" + path + ">; rel=\"monitor\"");
-    return response;
-}
-
-http::Response created(Services& services, const std::string& id) {
-    const auto job = services.queue.find(id);
-    if (!job) throw Error(ErrorCode::StorageFailure, "A job that was stored is not there.");
-    return json_response(to_json(job->info), 201);
+    if (order.inputs.dictionary) (void)require_dictionary(services, *order.inputs.dictionary);
+    const std::string id = job.job_id;
+    wish.submit(std::move(job), order.shape);
+    return id;
 }
 
 /// The result itself: the points, or, where there are none, where each result lies.
@@ -98,18 +110,19 @@ http::Response execute_process(Services& services, http::Request& request) {
         throw ProblemException(ProblemCode::ProcessNotFound,
                                "There is no process of this name; see /v1/processes.");
     }
-    const StatusInfo job = make_job(services, *task, read_order(services, request, *task));
-    services.queue.submit(job);
-    services.log.info("job-accepted", {{"job", job.job_id}, {"request", request.id}});
+    JobRequest wish(services, request);
+    Sent sent = receive(services, request, *task);
+    const auto before = wish.made_before(sent.digest);
+    const std::string id = before ? *before : make_job(services, *task, std::move(sent), wish);
 
     const auto wait = wanted_wait(services, request);
-    if (!wait ||
-        !services.queue.wait_for(job.job_id, std::chrono::seconds(*wait), request.abandoned)) {
-        return with_job_links(created(services, job.job_id), job.job_id);
-    }
-    http::Response response = result_itself(services, request, job.job_id);
-    response.set("Preference-Applied", "wait=" + std::to_string(*wait));
-    return with_job_links(std::move(response), job.job_id);
+    const bool ended =
+        wait && services.queue.wait_for(id, std::chrono::seconds(*wait), request.abandoned);
+    http::Response response = ended ? with_job_links(result_itself(services, request, id), id)
+                                    : job_created(services, id);
+    if (ended) response.set("Preference-Applied", "wait=" + std::to_string(*wait));
+    if (before) response.set("Idempotency-Replayed", "true");
+    return response;
 }
 
 }  // namespace lpf::server

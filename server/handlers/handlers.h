@@ -38,6 +38,9 @@ http::Response get_events(Services&, http::Request&);
 http::Response get_job_preview(Services&, http::Request&);
 http::Response get_shape_preview(Services&, http::Request&);
 
+// retry.cpp
+http::Response retry_job(Services&, http::Request&);
+
 // results.cpp
 http::Response list_results(Services&, http::Request&);
 http::Response get_points(Services&, http::Request&);

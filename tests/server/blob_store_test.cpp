@@ -3,24 +3,19 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <functional>
+#include <thread>
 
 #include "core/base/error.h"
 #include "server/file_blob_store.h"
 #include "server/mapped_file.h"
 #include "server/sha256.h"
+#include "tests/server/stores.h"
 #include "tests/server/temporary_folder.h"
 
 namespace lpf::server {
 namespace {
 
-/// One way to make a store. A further implementation only adds itself to the list below.
-struct Maker {
-    const char* name;
-    std::function<std::unique_ptr<BlobStore>(const std::filesystem::path&)> make;
-};
-
-class BlobStoreConformance : public testing::TestWithParam<Maker> {
+class BlobStoreConformance : public testing::TestWithParam<StoreMaker<BlobStore>> {
 protected:
     TemporaryFolder folder_;
     std::unique_ptr<BlobStore> store_ = GetParam().make(folder_.path());
@@ -92,11 +87,40 @@ TEST_P(BlobStoreConformance, RefusesNamesThatAreNoDigests) {
     EXPECT_THROW((void)store_->size("../../etc/passwd"), Error);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BlobStoreConformance,
-                         testing::Values(Maker{"Files",
-                                               [](const auto& path) {
-                                                   return std::make_unique<FileBlobStore>(path);
-                                               }}),
+TEST_P(BlobStoreConformance, CountsItsBytesEachFileOnce) {
+    EXPECT_EQ(store_->stored_bytes(), 0U);
+    const std::string digest = store_->put("12345");
+    store_->put("12345");
+    store_->put("123");
+    EXPECT_EQ(store_->stored_bytes(), 8U);
+    store_->remove(digest);
+    EXPECT_EQ(store_->stored_bytes(), 3U);
+    store_.reset();
+    store_ = GetParam().make(folder_.path());
+    EXPECT_EQ(store_->stored_bytes(), 3U);
+    store_->quarantine_unknown([](const std::string&) { return false; }, std::chrono::seconds(-1));
+    EXPECT_EQ(store_->stored_bytes(), 0U);
+}
+
+TEST_P(BlobStoreConformance, ManyThreadsPutEqualAndOtherBytes) {
+    {
+        std::vector<std::jthread> threads;
+        for (int t = 0; t < 8; ++t) {
+            threads.emplace_back([this, t] {
+                for (int i = 0; i < 20; ++i) {
+                    EXPECT_EQ(content(store_->put("common" + std::to_string(i))),
+                              "common" + std::to_string(i));
+                    store_->put("own" + std::to_string(t));
+                }
+            });
+        }
+    }
+    std::size_t expected = 8 * 4;
+    for (int i = 0; i < 20; ++i) expected += ("common" + std::to_string(i)).size();
+    EXPECT_EQ(store_->stored_bytes(), expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BlobStoreConformance, testing::ValuesIn(blob_stores()),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST(FileBlobStore, PutsBlobsIntoFoldersByTheirFirstByte) {

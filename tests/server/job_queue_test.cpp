@@ -1,74 +1,14 @@
 #include "server/job_queue.h"
 
-#include <gtest/gtest.h>
-
 #include <atomic>
 
 #include "api/problem.h"
-#include "core/base/error.h"
-#include "server/file_blob_store.h"
-#include "server/ids.h"
-#include "server/sha256.h"
-#include "server/sqlite_job_store.h"
-#include "tests/server/temporary_folder.h"
+#include "tests/server/job_queue_suite.h"
 
 namespace lpf::server {
 namespace {
 
 using std::chrono::seconds;
-
-/// Works until it is told to stop, as core does.
-JobOutcome work_forever(RunningJob& job) {
-    while (!job.stop_token().stop_requested())
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    throw Error(ErrorCode::Cancelled, "Cancelled.");
-}
-
-JobOutcome work_nothing(RunningJob&) { return {}; }
-
-class JobQueueTest : public testing::Test {
-protected:
-    std::unique_ptr<JobQueue> make_queue(JobWork work, QueueOptions options = {}) {
-        return std::make_unique<JobQueue>(storage_, log_, telemetry_, options, std::move(work));
-    }
-
-    StatusInfo new_job() {
-        ShapeInfo shape;
-        shape.id = new_id();
-        shape.format = "ply";
-        shape.sha256 = sha256_of("shape");
-        shape.expires = now_millis() + 1'000'000;
-        StatusInfo job;
-        job.job_id = new_id();
-        job.created = job.updated = now_millis();
-        job.shape = books_.add_shape(shape).id;
-        return job;
-    }
-
-    std::string submit(JobQueue& queue, StatusInfo job) {
-        queue.submit(job);
-        return job.job_id;
-    }
-    std::string submit(JobQueue& queue) { return submit(queue, new_job()); }
-
-    [[nodiscard]] JobStatus status(const std::string& id) const {
-        return books_.find_job(id)->info.status;
-    }
-
-    /// Waits until the job runs.
-    void wait_until_running(const JobQueue& queue, const std::string& id) const {
-        for (int i = 0; i < 1000 && queue.find(id)->info.status != JobStatus::Running; ++i)
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        ASSERT_EQ(queue.find(id)->info.status, JobStatus::Running);
-    }
-
-    TemporaryFolder folder_;
-    FileBlobStore blobs_{folder_.path()};
-    SqliteJobStore books_{folder_.path() / "jobs.sqlite"};
-    Storage storage_{books_, blobs_};
-    Log log_{LogLevel::Info, [](const std::string&) {}};
-    Telemetry telemetry_{"test"};
-};
 
 TEST_F(JobQueueTest, RunsAJobToItsEnd) {
     const auto queue = make_queue(work_nothing);
@@ -189,7 +129,9 @@ TEST_F(JobQueueTest, AStopGivesRunningJobsBackUncounted) {
 TEST_F(JobQueueTest, JobsOfAKilledServerRunAgain) {
     const auto queue = make_queue(work_nothing);
     const std::string id = submit(*queue);
-    (void)books_.claim_next(now_millis());  // the server that is killed now had it
+    (void)books_.claim_next({.now = now_millis(),
+                             .lease_until = now_millis() + 60'000,
+                             .rules = {}});  // the server that is killed now had it
     queue->start();
     ASSERT_TRUE(queue->wait_for(id, seconds(10), {}));
     EXPECT_EQ(queue->find(id)->info.attempt, 2);
@@ -209,27 +151,24 @@ TEST_F(JobQueueTest, ProgressIsFreshInMemoryAndOnDiskWithinSeconds) {
     });
     queue->start();
     const std::string id = submit(*queue);
-    for (int i = 0; i < 1000 && queue->find(id)->info.progress < 40; ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ASSERT_TRUE(becomes([&] { return queue->find(id)->info.progress == 40; }));
     const StatusInfo info = queue->find(id)->info;
     EXPECT_EQ(info.progress, 40);
     EXPECT_EQ(info.phase, "learn");
     EXPECT_EQ(info.phase_progress, (PhaseProgress{5, 10, "fields"}));
     EXPECT_TRUE(info.eta_seconds);
-    for (int i = 0; i < 1000 && books_.find_job(id)->info.progress < 40; ++i)
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    EXPECT_EQ(books_.find_job(id)->info.progress, 40);
+    EXPECT_TRUE(becomes([&] { return books_.find_job(id)->info.progress == 40; }));
 }
 
 TEST_F(JobQueueTest, ProgressNeverFalls) {
-    RunningJob job({{}, {}}, 10);
+    RunningJob job({}, 10);
     job.progress_sink(0, 100)({"a", 1, 2, "x", 0.6});
     job.progress_sink(0, 100)({"a", 1, 2, "x", 0.2});
     EXPECT_DOUBLE_EQ(job.info().progress, 60);
 }
 
 TEST_F(JobQueueTest, AWarningIsGivenOnce) {
-    RunningJob job({{}, {}}, 10);
+    RunningJob job({}, 10);
     job.warn("a", "First.");
     job.warn("a", "First.");
     job.warn("a", "Second.");

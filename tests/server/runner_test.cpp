@@ -168,9 +168,9 @@ TEST_F(RunnerTest, ADictionaryIsKeptFixed) {
     const JobOutcome first = run(Task::Analyze, few, square_);
     const StoredDictionary stored = *first.dictionary;
     const auto atoms = nlohmann::json::parse(bytes_of(first, ResultKind::Dictionary))["atoms"];
-    books_.add_job(job_->info(), 10);
-    const auto claim = books_.claim_next(0);
-    ASSERT_TRUE(books_.finish(claim->lease, claim->info, first.results, stored));
+    books_.add_job({.info = job_->info()}, {});
+    const auto claim = books_.claim_next({.now = 0, .lease_until = 1, .rules = {}});
+    ASSERT_TRUE(books_.finish(claim->lease, claim->info, first.results, stored, 0));
 
     JobInputs inputs;
     inputs.dictionary = stored.id;
