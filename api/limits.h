@@ -21,8 +21,19 @@ struct Limits {
     std::uint64_t head_bytes = 32ULL << 10;
     std::uint64_t head_fields = 100;
     std::uint64_t uri_bytes = 8ULL << 10;
+    std::uint64_t head_seconds = 10;
     std::uint64_t body_idle_seconds = 15;
     std::uint64_t body_seconds = 3600;
+    std::uint64_t body_rate_floor = 1024;
+    std::uint64_t write_stall_seconds = 30;
+    std::uint64_t keep_alive_seconds = 15;
+    std::uint64_t keep_alive_requests = 100;
+    std::uint64_t connections = 4096;
+    std::uint64_t connections_per_client = 64;
+    std::uint64_t uploads_at_once = 128;
+    std::uint64_t long_requests_at_once = 64;
+    std::uint64_t event_streams = 1024;
+    std::uint64_t event_streams_per_client = 16;
 
     std::uint64_t queued_jobs = 1000;
     std::uint64_t queued_jobs_per_key = 100;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/error.h"
+#include "server/pace.h"
 #include "server/routes.h"
 
 namespace lpf::server {
@@ -36,7 +37,7 @@ QueueOptions queue_options(const Config& config) {
                       limits.job_attempts};
     options.job_seconds = static_cast<double>(limits.job_seconds);
     options.result_retention = static_cast<UnixMillis>(limits.result_retention_seconds) * 1000;
-    options.max_waiters = std::max(1, config.http_threads / 2);
+    options.max_waiters = static_cast<int>(config.limits.long_requests_at_once);
     return options;
 }
 
@@ -46,6 +47,7 @@ http::ListenerOptions public_listener(const Config& config) {
     options.port = config.port;
     options.threads = static_cast<std::size_t>(config.http_threads);
     options.queue = kWaitingConnections;
+    options.pace = pace_of;
     options.limits = config.limits;
     return options;
 }
