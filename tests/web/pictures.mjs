@@ -4,7 +4,7 @@ import { open_page, run_to_end, start_browser, start_server, ready_to_run } from
 
 const folder = process.argv[2];
 const WINDOW = { width: 1200, height: 720 };
-const PART = { width: 780, height: 620 };  // of which only the view is shown
+const PART = { width: 960, height: 600 };  // of which only the view is shown
 const settle = (page) => page.waitForTimeout(2500);  // normals arrive a moment after the points
 
 const server = await start_server();

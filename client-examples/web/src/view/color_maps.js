@@ -1,8 +1,9 @@
-/** Stops of colour maps, dark to bright; all keep their order of lightness. */
+/** Stops of colour maps; lightness only rises or only falls along each. */
 export const MAPS = {
     heat: ['#1b1140', '#5a1a7c', '#a5307a', '#e2574f', '#fb9f3a', '#fdf3a1'],
     sea: ['#2d2a6e', '#2a5fa0', '#21908c', '#4fbf6b', '#c7dd3b', '#fdf6a8'],
     ember: ['#33415c', '#4c5a78', '#96697f', '#e07a5f', '#f6b25e', '#fff1b8'],
+    rust: ['#cfcbc6', '#e3bd8c', '#e08a4c', '#c4452f', '#84123a'],
 };
 
 /** Colours of points by the dimension of the shape around them. */

@@ -106,7 +106,7 @@ function by_side(sides, list) {
 async function scalar_tints(scene, sides, mode) {
     const values = await Promise.all(sides.map((side) => values_of(scene, side, mode)));
     const range = range_of(values, mode);
-    const map = { atom: 'ember', displacement: 'heat', error: 'heat' }[mode] ?? 'sea';
+    const map = { atom: scene.theme === 'dark' ? 'ember' : 'rust', displacement: 'heat', error: 'heat' }[mode] ?? 'sea';
     const dim = rgb(DIM[scene.theme]);
     const tints = values.map((list, i) => {
         if (!list) return plain(scene, sides[i]);

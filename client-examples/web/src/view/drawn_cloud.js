@@ -2,6 +2,8 @@ import { BufferAttribute, BufferGeometry, Mesh, Points, Scene } from 'three';
 import { mesh_material, point_material } from './materials.js';
 import { quantile } from '../numbers.js';
 
+const COVER = 1.05;  // diameter of a point in spacings: so few gaps that a surface is seen
+
 /** A cloud (or mesh) in a scene of its own. */
 export class DrawnCloud {
     /** @param {import('../worker/cloud.js').Cloud} cloud */
@@ -18,17 +20,22 @@ export class DrawnCloud {
         this.object.frustumCulled = false;
         this.scene = new Scene().add(this.object);
         this.radius = this.reach_();
-        this.spacing_ = this.radius * Math.sqrt(4 * Math.PI / Math.max(1, cloud.count)) * 0.78;
+        this.size_ = this.radius * 0.4 * Math.sqrt(4 * Math.PI / Math.max(1, cloud.count));  // a guess
     }
 
-    /** @param {Uint8Array} tints red, green and blue of each point */
-    paint(tints) {
+    /**
+     * @param {Uint8Array} tints red, green and blue of each point
+     * @param {number} ambient share of the light that comes from everywhere
+     */
+    paint(tints, ambient) {
+        this.object.material.uniforms.ambient.value = ambient;
         this.tints_.array.set(tints);
         this.tints_.needsUpdate = true;
     }
 
-    /** @param {Int8Array} normals xyz of each point, of either sign */
-    light(normals) {
+    /** @param {{normals: Int8Array, spacing: number}} surface what the worker has estimated */
+    light({ normals, spacing }) {
+        if (spacing > 0) this.size_ = spacing * COVER;
         this.object.geometry.setAttribute('normal', new BufferAttribute(normals, 3, true));
     }
 
@@ -41,7 +48,7 @@ export class DrawnCloud {
     set_size(focal, pixelRatio) {
         const { uniforms } = this.object.material;
         if (!uniforms.size) return;
-        uniforms.size.value = this.spacing_ * focal;
+        uniforms.size.value = this.size_ * focal;
         uniforms.pixelRatio.value = pixelRatio;
     }
 

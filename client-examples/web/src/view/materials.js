@@ -4,13 +4,14 @@ const POINT_VERTEX = `
 attribute vec3 tint;
 uniform float size;
 uniform float pixelRatio;
+uniform float ambient;
 varying vec3 v_tint;
 void main() {
     vec4 seen = modelViewMatrix * vec4(position, 1.0);
     // Without a normal (it is zero) there is no shading. Its sign means nothing.
     vec3 towards = normalize(seen.xyz + vec3(-0.45, -0.6, 0.0) * length(seen.xyz));
     float facing = abs(dot(normalize(normalMatrix * normal + 1e-9), towards));
-    v_tint = tint * (dot(normal, normal) > 0.0 ? 0.42 + 0.58 * facing : 1.0);
+    v_tint = tint * (dot(normal, normal) > 0.0 ? mix(facing, 1.0, ambient) : 1.0);
     gl_Position = projectionMatrix * seen;
     gl_PointSize = clamp(size / -seen.z, 1.5 * pixelRatio, 24.0 * pixelRatio);
 }`;
@@ -35,12 +36,13 @@ void main() {
 }`;
 
 const MESH_FRAGMENT = `
+uniform float ambient;
 varying vec3 v_tint;
 varying vec3 v_seen;
 void main() {
     vec3 normal = normalize(cross(dFdx(v_seen), dFdy(v_seen)));
     float facing = abs(dot(normal, normalize(v_seen + vec3(-0.3, -0.4, 0.0) * length(v_seen))));
-    gl_FragColor = vec4(v_tint * (0.35 + 0.65 * facing), 1.0);
+    gl_FragColor = vec4(v_tint * mix(facing, 1.0, ambient), 1.0);
 }`;
 
 /** Round points of one size in space. */
@@ -48,14 +50,18 @@ export function point_material() {
     return new ShaderMaterial({
         vertexShader: POINT_VERTEX,
         fragmentShader: POINT_FRAGMENT,
-        uniforms: { size: { value: 1 }, pixelRatio: { value: 1 } },
+        uniforms: { size: { value: 1 }, pixelRatio: { value: 1 }, ambient: { value: 0.4 } },
     });
 }
 
 /** Flat triangles in the light of the viewer. */
 export function mesh_material() {
     return new ShaderMaterial({
-        vertexShader: MESH_VERTEX, fragmentShader: MESH_FRAGMENT, side: DoubleSide });
+        vertexShader: MESH_VERTEX,
+        fragmentShader: MESH_FRAGMENT,
+        uniforms: { ambient: { value: 0.4 } },
+        side: DoubleSide,
+    });
 }
 
 const SHADE_FRAGMENT = `

@@ -90,8 +90,11 @@ export class Stage {
         }
         const { tints, legend } = await color(scene, mode);
         if (scene !== this.scene || mode !== this.mode_) return;  // something newer is on its way
+        const ambient = mode === 'plain' ? 0.4 : 0.68;  // colours that mean something stay legible
         for (const [side, list] of Object.entries(tints)) {
-            if (this.viewer_.cloud(side)?.count * 3 === list.length) this.viewer_.paint(side, list);
+            if (this.viewer_.cloud(side)?.count * 3 === list.length) {
+                this.viewer_.paint(side, list, ambient);
+            }
         }
         show_legend(by_id('legend'), modes.find(({ id }) => id === mode).label, legend);
     }

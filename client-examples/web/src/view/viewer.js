@@ -43,9 +43,12 @@ export class Viewer {
         return this.clouds_[side]?.cloud;
     }
 
-    /** @param {Uint8Array} tints red, green and blue of each point of a side */
-    paint(side, tints) {
-        this.clouds_[side].paint(tints);
+    /**
+     * @param {Uint8Array} tints red, green and blue of each point of a side
+     * @param {number} ambient share of the light that comes from everywhere
+     */
+    paint(side, tints, ambient) {
+        this.clouds_[side].paint(tints, ambient);
         this.redraw();
     }
 
@@ -95,10 +98,10 @@ export class Viewer {
         });
     }
 
-    /** The form of points shows once they have normals, which take a moment. */
+    /** The form of points shows once they have normals and a size, which take a moment. */
     async light_(drawn) {
         const { positions, count } = drawn.cloud;
-        drawn.light(await in_background('estimate_normals', { positions, count }));
+        drawn.light(await in_background('estimate_surface', { positions, count }));
         this.redraw();
     }
 

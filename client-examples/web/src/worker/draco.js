@@ -13,6 +13,11 @@ function pick(attribute, Type, count, step, value) {
     return out;
 }
 
+/** Bytes come as 0 to 1 or as 0 to 255, as the file marks them or forgets to. */
+function color_scale(values) {
+    return values.some((value) => value > 1) ? 1 : 255;
+}
+
 /**
  * Decodes a Draco file for drawing, thinned to at most maxPoints.
  * @param {Blob} file
@@ -32,7 +37,8 @@ export async function read_draco(file, maxPoints) {
     const step = Math.max(1, Math.ceil(total / maxPoints));
     const count = Math.ceil(total / step);
     const points = pick(position, Float64Array, count, step, (v) => v);
-    const colors = color && pick(color, Uint8Array, count, step, (v) => Math.round(v * 255));
+    const scale = color && color_scale(color.array);
+    const colors = color && pick(color, Uint8Array, count, step, (v) => Math.round(v * scale));
     const index = step === 1 && geometry.index ? new Uint32Array(geometry.index.array) : undefined;
     return make_cloud(points, { total, colors, index });
 }

@@ -1,6 +1,8 @@
+import { quantile } from '../numbers.js';
 import { KdTree } from './kd_tree.js';
 
 const NEIGHBOURS = 14;
+const SPACING_RANK = 4;  // in a plane, the distance of this neighbour is about the spacing
 
 /** Upper half of the covariance of some points: xx xy xz yy yz zz. */
 function covariance(points, indices) {
@@ -46,19 +48,27 @@ function least_direction(matrix) {
     return best;
 }
 
+function distance(points, i, j) {
+    return Math.hypot(...[0, 1, 2].map((c) => points[i * 3 + c] - points[j * 3 + c]));
+}
+
 /**
- * Normals to light points with, of either sign: the direction in which the neighbours spread least.
+ * What is needed to draw points as a surface.
  * @param {import('./cloud.js').Cloud} cloud
- * @returns {Int8Array} xyz of each point, 127 being 1
+ * @returns {{normals: Int8Array, spacing: number}} normals: xyz of each point, 127 being 1, of
+ *     either sign: the direction in which the neighbours spread least. spacing: how far from each
+ *     other points lie, typically
  */
-export function estimate_normals({ positions, count }) {
+export function estimate_surface({ positions, count }) {
     const tree = new KdTree(positions);
     const normals = new Int8Array(count * 3);
+    const gaps = new Float32Array(count);
     for (let i = 0; i < count; ++i) {
         const near = tree.nearest_k(positions[i * 3], positions[i * 3 + 1], positions[i * 3 + 2],
             NEIGHBOURS).filter((index) => index >= 0);
         const n = least_direction(covariance(positions, near));
         for (let c = 0; c < 3; ++c) normals[i * 3 + c] = Math.round(127 * n[c]);
+        gaps[i] = distance(positions, i, near[Math.min(SPACING_RANK, near.length - 1)]);
     }
-    return normals;
+    return { normals, spacing: quantile(gaps, 0.5) };
 }

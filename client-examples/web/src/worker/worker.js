@@ -3,7 +3,7 @@ import { cloud_buffers, make_cloud } from './cloud.js';
 import { distances_in_order, distances_to, nearest_seeds } from './distances.js';
 import { read_draco } from './draco.js';
 import { read_fields } from './fields.js';
-import { estimate_normals } from './normals.js';
+import { estimate_surface } from './normals.js';
 import { read_ply } from './ply.js';
 import { make_sample } from './samples.js';
 
@@ -49,7 +49,7 @@ const methods = {
     distances_to,
     distances_in_order,
     nearest_seeds,
-    estimate_normals,
+    estimate_surface,
 };
 
 function buffers_of(result) {
