@@ -28,10 +28,9 @@ job_status() {
 port_is_free() { ! (exec 3<>"/dev/tcp/127.0.0.1/$1") 2>/dev/null; }
 
 start_server() {
-    local port=0 web=()
+    local port=0
     if port_is_free 8080; then port=8080; fi
-    [ ! -f client-examples/web/index.html ] || web=(--web-dir client-examples/web)
-    "$bin/lpf-server" --port "$port" --admin-port 0 --data-dir "$out/data" "${web[@]}" \
+    "$bin/lpf-server" --port "$port" --admin-port 0 --data-dir "$out/data" \
         >"$out/listening.json" 2>"$out/server.log" </dev/null &
     server=$!
     local waited

@@ -34,7 +34,7 @@ scripts/install-dependencies.sh
 
 step "Building"
 cmake --preset release >"$out/configure.log" || fail "CMake failed; see $out/configure.log"
-cmake --build --preset release -j "$(nproc)" --target lpf-server lpf-decode lpf-scan
+cmake --build --preset release -j "$(nproc)" --target lpf-server lpf-decode lpf-scan web
 
 simulated=no
 if [ -z "$file" ]; then

@@ -15,6 +15,8 @@ packages=(
     # tests and lpf-scan
     libgtest-dev libgmock-dev libpng-dev python3 python3-pytest python3-requests python3-jsonschema
 )
+# npm builds the web page. One that is not Debian's is as good.
+command -v npm >/dev/null || packages+=(nodejs npm)
 developer_packages=(clang-format clang-tidy clang shellcheck)
 
 explain() {
@@ -60,6 +62,9 @@ fi
 if [ "${ID:-}" = debian ] && [ -n "${VERSION_ID:-}" ] && [ "${VERSION_ID%%.*}" -lt 12 ]; then
     explain "Debian $VERSION_ID is too old: its CMake and compiler cannot build the project."
 fi
+
+# The web page is tested in a real browser; on Ubuntu it would be a snap.
+[ "${ID:-}" != debian ] || packages+=(chromium)
 
 missing=()
 for package in "${packages[@]}"; do
