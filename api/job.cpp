@@ -48,6 +48,15 @@ void put_progress(json& target, const StatusInfo& info) {
 json job_links(const StatusInfo& info) {
     const std::string self = "/v1/jobs/" + info.job_id;
     json links = json::array({to_json(Link{.href = self, .rel = "self"})});
+    if (info.status == JobStatus::Dismissed) return links;  // all else is gone
+    links.push_back(to_json(Link{.href = self + "/events",
+                                 .rel = "alternate",
+                                 .type = "text/event-stream",
+                                 .title = "What happens, as it happens"}));
+    links.push_back(to_json(Link{.href = self + "/preview",
+                                 .rel = "preview",
+                                 .type = "application/ply",
+                                 .title = "A fair share of its points"}));
     if (info.status == JobStatus::Successful) {
         links.push_back(to_json(Link{.href = self + "/results",
                                      .rel = std::string(kResultsRelation),

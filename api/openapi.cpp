@@ -81,6 +81,7 @@ Json parameters(const Limits& limits) {
     all.update(path_parameters());
     all.update(list_parameters(limits));
     all.update(header_parameters(limits));
+    all.update(openapi::live_parameters());
     return all;
 }
 
@@ -121,8 +122,11 @@ Json tags() {
 nlohmann::json openapi_document(const Limits& limits, std::string_view version,
                                 std::string_view server_url) {
     if (server_url.size() > 1 && server_url.ends_with('/')) server_url.remove_suffix(1);
+    Json all_headers = headers();
+    all_headers.update(openapi::live_headers());
     Json schemas = openapi::service_schemas(limits);
     schemas.update(openapi::result_schemas());
+    schemas.update(openapi::live_schemas());
     const Json key = {{"type", "http"},
                       {"scheme", "bearer"},
                       {"description", "An API key, where the service was started with keys."}};
@@ -143,7 +147,7 @@ nlohmann::json openapi_document(const Limits& limits, std::string_view version,
             {"components",
              {{"schemas", std::move(schemas)},
               {"parameters", parameters(limits)},
-              {"headers", headers()},
+              {"headers", std::move(all_headers)},
               {"securitySchemes", {{"apiKey", key}}}}}};
 }
 

@@ -3,6 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "api/job.h"
+#include "api/job_event.h"
+#include "api/validation.h"
 
 namespace lpf::openapi {
 namespace {
@@ -39,6 +41,46 @@ nlohmann::json status_example(Task task) {
                                  .rule = "enough for most shapes, few enough to consolidate"}};
     info.shape = kShape;
     return to_json(info);
+}
+
+nlohmann::json validation_example(Task task) {
+    Validation v;
+    v.process = task;
+    v.shape = kShape;
+    v.format = "ply";
+    v.points = 100'000;
+    v.resolved_parameters = {{.name = "radius",
+                              .value = 0.0304,
+                              .automatic = true,
+                              .rule = "root of the sum of squares of 0.6 times the radius that "
+                                      "holds about 150 points and 3 times the noise"}};
+    v.measurements = {.points = 100'000,
+                      .diagonal = 2.8,
+                      .mean_spacing = 0.0048,
+                      .noise = 0.003,
+                      .density_radius = 0.044};
+    v.neighbours = {0.0304, {12, 41, 55, 60, 66, 70}};
+    if (task == Task::Analyze) {
+        v.attributes = {{"red", "vertex", Fate::Unused, "An analysis makes no points."}};
+    } else {
+        v.attributes = {{"red", "vertex", task == Task::Denoise ? Fate::Kept : Fate::Carried,
+                         "Each point keeps its own value."}};
+    }
+    v.work.task = task;
+    v.work.fields = 12'922;
+    v.work.output_points = 100'000;
+    v.estimate = {.seconds = 1.9, .memory_bytes = 63e6};
+    v.threads = 2;
+    return to_json(v);
+}
+
+std::string events_example() {
+    const std::string job = kJob;
+    return "retry: 2000\n\n" +
+           event_text(1'772'366'400'001'001, "progress",
+                      R"({"jobID":")" + job +
+                          R"(","message":"","progress":42,"status":"running","updated":)"
+                          R"("2026-03-01T12:00:02.350Z"})");
 }
 
 }  // namespace lpf::openapi

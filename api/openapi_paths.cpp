@@ -172,8 +172,8 @@ Json operation_paths() {
 
 Json paths(const Limits& limits) {
     Json all = document_paths();
-    for (const Json& some : {process_paths(), execution_paths(limits), shape_paths(), job_paths(),
-                             dictionary_paths(), operation_paths()}) {
+    for (const Json& some : {process_paths(), execution_paths(limits), live_paths(limits),
+                             shape_paths(), job_paths(), dictionary_paths(), operation_paths()}) {
         all.update(some);
     }
     return all;

@@ -12,4 +12,7 @@ namespace lpf::openapi {
 /// components/schemas of what a job leaves behind.
 [[nodiscard]] nlohmann::json result_schemas();
 
+/// components/schemas of what is told of a job before it runs and while it does.
+[[nodiscard]] nlohmann::json live_schemas();
+
 }  // namespace lpf::openapi

@@ -19,6 +19,7 @@ Router public_routes(Services& services) {
             {"GET", "/v1/processes", to(list_processes)},
             {"GET", "/v1/processes/{id}", to(get_process)},
             {"POST", "/v1/processes/{id}/execution", to(execute_process)},
+            {"POST", "/v1/processes/{id}/validate", to(validate_process)},
 
             {"POST", "/v1/shapes", to(upload_shape)},
             {"GET", "/v1/shapes/{id}", to(get_shape)},

@@ -4,7 +4,6 @@
 #include "server/answer.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/lookup.h"
-#include "server/mapped_file.h"
 
 namespace lpf::server {
 namespace {
@@ -16,9 +15,7 @@ nlohmann::json summary_of(const StoredDictionary& dictionary) {
 }
 
 std::string atoms_of(Services& services, const StoredDictionary& stored) {
-    const MappedFile file(services.storage.blobs().local_file(stored.sha256));
-    const auto json = nlohmann::json::parse(file.text(), nullptr, false);
-    return atoms_to_npy(dictionary_from_json(json, services.limits()).dictionary);
+    return atoms_to_npy(load_dictionary(services, stored.id));
 }
 
 }  // namespace

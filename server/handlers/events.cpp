@@ -10,7 +10,6 @@
 namespace lpf::server {
 namespace {
 
-constexpr auto kKeepAlive = std::chrono::seconds(15);  // a proxy cuts what is silent for longer
 constexpr auto kLookAgain = std::chrono::seconds(5);   // in the books, when nothing is told
 constexpr const char* kRetryHint = "retry: 2000\n\n";  // milliseconds until a client comes back
 
@@ -27,12 +26,7 @@ public:
         append(services_.events.after(job_id_, last_));
         const auto now = Clock::now();
         if (text_.empty() && now - checked_ > kLookAgain) look_into_the_books();
-        if (!text_.empty()) {
-            sent_ = checked_ = now;
-        } else if (now - sent_ > kKeepAlive) {
-            sent_ = now;
-            return ":\n\n";  // a comment
-        }
+        if (!text_.empty()) checked_ = now;
         return std::exchange(text_, {});
     }
 
@@ -62,7 +56,6 @@ private:
     std::uint64_t last_;
     std::string text_;
     bool ended_ = false;
-    Clock::time_point sent_ = Clock::now();
     Clock::time_point checked_ = Clock::now();
 };
 

@@ -20,6 +20,9 @@ http::Response get_process(Services&, http::Request&);
 // execution.cpp
 http::Response execute_process(Services&, http::Request&);
 
+// validate.cpp
+http::Response validate_process(Services&, http::Request&);
+
 // shapes.cpp
 http::Response upload_shape(Services&, http::Request&);
 http::Response get_shape(Services&, http::Request&);

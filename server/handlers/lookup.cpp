@@ -1,8 +1,13 @@
 #include "server/handlers/lookup.h"
 
+#include <nlohmann/json.hpp>
+
+#include "api/dictionary_document.h"
 #include "api/http_text.h"
+#include "api/parameters.h"
 #include "api/problem.h"
 #include "api/uuid.h"
+#include "server/mapped_file.h"
 
 namespace lpf::server {
 namespace {
@@ -63,6 +68,20 @@ StoredDictionary require_dictionary(Services& services, const std::string& id) {
                                "There is no dictionary of this ID.");
     }
     return *dictionary;
+}
+
+Dictionary load_dictionary(Services& services, const std::string& id) {
+    const StoredDictionary stored = require_dictionary(services, id);
+    const MappedFile file(services.storage.blobs().local_file(stored.sha256));
+    const auto json = nlohmann::json::parse(file.text(), nullptr, false);
+    return dictionary_from_json(json, services.limits()).dictionary;
+}
+
+Task require_process(const std::string& id) {
+    const auto task = task_from_id(id);
+    if (task) return *task;
+    throw ProblemException(ProblemCode::ProcessNotFound,
+                           "There is no process of this name; see /v1/processes.");
 }
 
 std::optional<std::uint64_t> wanted_wait(const Services& services, const http::Request& request) {

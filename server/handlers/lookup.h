@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "core/auto_parameters.h"
 #include "server/http/message.h"
 #include "server/services.h"
 
@@ -21,6 +22,12 @@ namespace lpf::server {
 
 /// @throws ProblemException{DictionaryNotFound}
 [[nodiscard]] StoredDictionary require_dictionary(Services& services, const std::string& id);
+
+/// The dictionary itself. @throws as require_dictionary
+[[nodiscard]] Dictionary load_dictionary(Services& services, const std::string& id);
+
+/// The process of /v1/processes/{id}. @throws ProblemException{ProcessNotFound}
+[[nodiscard]] Task require_process(const std::string& id);
 
 /// Seconds of `Prefer: wait`, or nothing.
 [[nodiscard]] std::optional<std::uint64_t> wanted_wait(const Services& services,

@@ -5,6 +5,7 @@
 #include "api/parameters.h"
 #include "server/answer.h"
 #include "server/handlers/handlers.h"
+#include "server/handlers/lookup.h"
 
 namespace lpf::server {
 
@@ -13,12 +14,8 @@ http::Response list_processes(Services&, http::Request&) {
 }
 
 http::Response get_process(Services& services, http::Request& request) {
-    const auto task = task_from_id(request.path_parameters.at(0));
-    if (!task) {
-        throw ProblemException(ProblemCode::ProcessNotFound,
-                               "There is no process of this name; see /v1/processes.");
-    }
-    return json_response(process_description(*task, services.limits(), version()));
+    const Task task = require_process(request.path_parameters.at(0));
+    return json_response(process_description(task, services.limits(), version()));
 }
 
 }  // namespace lpf::server

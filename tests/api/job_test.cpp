@@ -98,9 +98,9 @@ TEST(StatusInfo, ProgressIsAnIntegerFromZeroToAHundred) {
 
 TEST(StatusInfo, LinksToResultsOnceThereAreSome) {
     StatusInfo info = test::full_status();
-    EXPECT_EQ(to_json(info)["links"].size(), 1U);
+    EXPECT_EQ(to_json(info)["links"].size(), 3U);
     info.status = JobStatus::Successful;
-    EXPECT_EQ(to_json(info)["links"][1]["href"], "/v1/jobs/" + test::kJobId + "/results");
+    EXPECT_EQ(to_json(info)["links"][3]["href"], "/v1/jobs/" + test::kJobId + "/results");
 }
 
 TEST(StatusInfo, DamageIsToldAsStorageFailure) {
