@@ -110,20 +110,17 @@ FileBlobStore::FileBlobStore(fs::path root) : root_(std::move(root)) {
     for (const auto& file : files_below(root_ / "blobs")) stored_bytes_ += bytes_of(file);
 }
 
-/// All of them now, and durably: a file must not depend on a folder that a crash takes away.
 void FileBlobStore::make_folders() const {
-    std::vector<fs::path> folders{root_, root_ / "tmp", root_ / "quarantine", root_ / "blobs"};
-    constexpr std::string_view kDigits = "0123456789abcdef";
-    for (const char high : kDigits)
-        for (const char low : kDigits) folders.push_back(root_ / "blobs" / std::string{high, low});
-    for (const fs::path& folder : folders) {
+    for (const char* name : {"tmp", "quarantine", "blobs"}) {
         std::error_code error;
-        fs::create_directories(folder, error);
+        fs::create_directories(root_ / name, error);
         if (error) {
-            throw Error(ErrorCode::StorageFailure, "The folder " + folder.string() +
-                                                       " cannot be made: " + error.message() + ".");
+            throw Error(ErrorCode::StorageFailure,
+                        "The folder '" + std::string(name) +
+                            "' of the data folder cannot be made: " + error.message() + ".");
         }
     }
+    // Also what a run before may have made without living to see it durable.
     sync_folder(root_ / "blobs");
     sync_folder(root_);
     sync_folder(fs::absolute(root_).parent_path());
@@ -137,6 +134,12 @@ void FileBlobStore::take_in(const fs::path& file, const std::string& digest, std
     const fs::path place = path_of(digest);
     {
         const std::lock_guard lock(mutex_);
+        // Nobody puts a file into a folder that a crash could still take away.
+        if (::mkdir(place.parent_path().c_str(), 0700) == 0) {
+            sync_folder(root_ / "blobs");
+        } else if (errno != EEXIST) {
+            fail("A folder for a file cannot be made");
+        }
         const std::uint64_t before = bytes_of(place);
         if (::rename(file.c_str(), place.c_str()) != 0) fail("Moving a file to its place failed");
         stored_bytes_ += bytes - before;  // of equal files only one is kept
