@@ -44,6 +44,7 @@ void Reception::start(int listening) {
 }
 
 void Reception::welcome_back(ConnectionPtr connection) {
+    connection->input.shrink_to_fit();  // thousands may be idle
     Guest guest{.connection = std::move(connection)};
     guest.deadline = Clock::now() + std::chrono::seconds(limits_.keep_alive_seconds);
     const std::lock_guard lock(mutex_);
@@ -54,7 +55,7 @@ void Reception::welcome_back(ConnectionPtr connection) {
 void Reception::see_off(ConnectionPtr connection) {
     ::shutdown(connection->socket.get(), SHUT_WR);
     Guest guest{.connection = std::move(connection), .departing = true};
-    guest.connection->input.clear();
+    guest.connection->input = {};
     guest.deadline = Clock::now() + kFarewell;
     const std::lock_guard lock(mutex_);
     returned_.push_back(std::move(guest));
