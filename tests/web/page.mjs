@@ -79,6 +79,15 @@ export async function drop(page, { name, bytes }) {
     await page.dispatchEvent('#stage', 'drop', { dataTransfer: data });
 }
 
+/** Waits until a condition holds: software rendering on a busy machine takes its time. */
+export async function until(holds, what, seconds = 20) {
+    for (const end = Date.now() + 1000 * seconds; Date.now() < end;) {
+        if (await holds()) return;
+        await new Promise((resolve) => setTimeout(resolve, 200));
+    }
+    throw new Error(`after ${seconds} s still not: ${what}`);
+}
+
 export const ready_to_run = (page) =>
     page.waitForFunction(() => !document.getElementById('run').disabled, null, { timeout: 30_000 });
 
