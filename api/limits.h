@@ -35,6 +35,11 @@ struct Limits {
     std::uint64_t event_streams = 1024;
     std::uint64_t event_streams_per_client = 16;
 
+    std::uint64_t requests_per_second = 100;  ///< 0: no limit
+    std::uint64_t request_burst = 200;
+    std::uint64_t uploads_per_second = 10;  ///< 0: no limit
+    std::uint64_t upload_burst = 100;
+
     std::uint64_t queued_jobs = 1000;
     std::uint64_t queued_jobs_per_key = 100;
     std::uint64_t running_jobs_per_key = 0;  ///< 0: as many as there are cores

@@ -93,6 +93,14 @@ Json headers() {
     return {
         {"Location", header("Path of what was made.", openapi::text(""))},
         {"Retry-After", header("Seconds to wait before the next try.", openapi::integer("", 0))},
+        {"X-Request-Id",
+         header("Names the request in problems and in the server's log; the client's own, if it "
+                "sent one of up to 64 letters, digits, '-', '_' or '.'.",
+                openapi::text(""))},
+        {"WWW-Authenticate", header("How to show a key.", openapi::text(""))},
+        {"RateLimit-Limit", header("Requests in a full bucket.", openapi::integer("", 0))},
+        {"RateLimit-Remaining", header("Requests left in it.", openapi::integer("", 0))},
+        {"RateLimit-Reset", header("Seconds until it is full again.", openapi::integer("", 0))},
         {"ETag", header("Stands for exactly these bytes.", openapi::text(""))},
         {"Accept-Ranges", header("Ranges of bytes are served.", openapi::text(""))},
         {"Content-Range",

@@ -11,11 +11,20 @@ namespace {
 /// What any request can meet, whatever it asks for.
 constexpr ProblemCode kAnywhere[] = {ProblemCode::MalformedRequest, ProblemCode::RequestTimeout,
                                      ProblemCode::UriTooLong,       ProblemCode::HeadTooLarge,
-                                     ProblemCode::Internal,         ProblemCode::Unavailable};
+                                     ProblemCode::Forbidden,        ProblemCode::Internal,
+                                     ProblemCode::Unavailable};
 
 /// What any request to a protected path can meet.
-constexpr ProblemCode kProtected[] = {ProblemCode::Unauthorized, ProblemCode::Forbidden,
-                                      ProblemCode::RateLimited};
+constexpr ProblemCode kProtected[] = {ProblemCode::Unauthorized, ProblemCode::RateLimited};
+
+/// Headers that go with a status.
+std::vector<std::string_view> headers_of(int status) {
+    if (status == 401) return {"WWW-Authenticate"};
+    if (status == 429)
+        return {"Retry-After", "RateLimit-Limit", "RateLimit-Remaining", "RateLimit-Reset"};
+    if (status == 503) return {"Retry-After"};
+    return {};
+}
 
 Json described(Json schema, std::string_view description) {
     if (!description.empty()) schema["description"] = description;
@@ -36,10 +45,8 @@ Json problem_response(const std::vector<ProblemCode>& problems) {
                      {"content",
                       {{std::string(kProblemMediaType),
                         {{"schema", component("Problem")}, {"example", example}}}}}};
-    const int status = kind_of(problems.front()).status;
-    if (status == 429 || status == 503) {
-        response["headers"]["Retry-After"] = component("Retry-After", "headers");
-    }
+    for (const std::string_view header : headers_of(kind_of(problems.front()).status))
+        response["headers"][std::string(header)] = component(header, "headers");
     return response;
 }
 
@@ -145,6 +152,8 @@ Json Operation::json() const {
     for (const auto& [status, same] : by_status) {
         result["responses"][std::to_string(status)].update(problem_response(same), true);
     }
+    for (auto& [status, response] : result["responses"].items())
+        response["headers"]["X-Request-Id"] = component("X-Request-Id", "headers");
     return result;
 }
 

@@ -15,10 +15,14 @@ Json document_paths() {
     const Json openapi = {{"type", "object"}, {"description", "An OpenAPI 3.1 document."}};
     const Json content = {{"application/vnd.oai.openapi+json", {{"schema", openapi}}}};
     Json paths;
-    paths["/v1"]["get"] =
+    paths["/v1/"]["get"] =
         Operation("getLandingPage", "Service", "Landing page")
             .answers(200, "Links to everything.", json_content(component("LandingPage")))
             .json();
+    paths["/v1"]["get"] = Operation("getLandingPageToo", "Service", "The same landing page")
+                              .answers(200, "Links to everything.",
+                                       json_content(component("LandingPage")))
+                              .json();
     paths["/v1/conformance"]["get"] =
         Operation("getConformance", "Service", "Conformance classes")
             .answers(200, "What the service conforms to.", json_content(component("Conformance")))

@@ -27,7 +27,7 @@ constexpr ProblemKind kProblems[] = {
     {P::MalformedJson, "malformed-json", 400, "The body is not valid JSON", ""},
     {P::MalformedRequest, "malformed-request", 400, "The request is malformed", ""},
     {P::Unauthorized, "unauthorized", 401, "An API key is needed", ""},
-    {P::Forbidden, "forbidden", 403, "The API key may not do this", ""},
+    {P::Forbidden, "forbidden", 403, "This may not be done from here", ""},
     {P::NotFound, "not-found", 404, "There is nothing here", ""},
     {P::ProcessNotFound, "process-not-found", 404, "There is no such process",
      "http://www.opengis.net/def/exceptions/ogcapi-processes-1/1.0/no-such-process"},

@@ -14,6 +14,7 @@ packages=(
     libssl-dev zlib1g-dev libsqlite3-dev libcli11-dev
     # tests and lpf-scan
     libgtest-dev libgmock-dev libpng-dev python3 python3-pytest python3-requests python3-jsonschema
+    python3-prometheus-client nginx-light
 )
 # npm builds the web page. One that is not Debian's is as good.
 command -v npm >/dev/null || packages+=(nodejs npm)

@@ -73,6 +73,7 @@ http::Response problem_response(Problem problem, const http::Request& request) {
     problem.members.emplace_back("requestId", request.id);
     http::Response response = json_response(to_json(problem), problem.status());
     response.content_type = std::string(kProblemMediaType);
+    response.problem = problem.code();
     if (problem.retry_after > 0) response.set("Retry-After", std::to_string(problem.retry_after));
     return response;
 }

@@ -75,8 +75,9 @@ App::App(Config config, Log& log)
       queue_(storage_, events_, log_, telemetry_, queue_options(config_),
              [this](RunningJob& job) { return runner_.run(job); }),
       services_{config_, data_, storage_, queue_, events_, previews_, log_, telemetry_},
-      admin_(services_, admin_routes(services_), admin_listener(config_)),
-      site_(services_, public_routes(services_), public_listener(config_)) {}
+      gate_(config_, log_),
+      admin_(services_, nullptr, admin_routes(services_), admin_listener(config_)),
+      site_(services_, &gate_, public_routes(services_), public_listener(config_)) {}
 
 App::~App() { stop(); }
 

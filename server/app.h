@@ -8,6 +8,7 @@
 #include "server/config.h"
 #include "server/file_blob_store.h"
 #include "server/job_events.h"
+#include "server/gate.h"
 #include "server/job_queue.h"
 #include "server/preview_cache.h"
 #include "server/runner.h"
@@ -31,6 +32,9 @@ public:
     /// Takes nothing new, lets requests in flight end, gives running jobs back.
     void stop();
 
+    /// Reads the API keys again.
+    void reload() { gate_.reload(); }
+
     [[nodiscard]] int port() const { return port_; }
     [[nodiscard]] int admin_port() const { return admin_port_; }
 
@@ -50,6 +54,7 @@ private:
     PreviewCache previews_;
     JobQueue queue_;
     Services services_;
+    Gate gate_;
     Site admin_;
     Site site_;
     int port_ = 0;

@@ -27,6 +27,22 @@ CLI::Option* add(CLI::App& app, const std::string& flag, Value& value, const std
         ->capture_default_str();
 }
 
+/// A flag that may come several times; its variable holds a list with commas.
+CLI::Option* add_list(CLI::App& app, const std::string& flag, std::vector<std::string>& values,
+                      const std::string& help) {
+    return app.add_option(flag, values, help + "; may come several times")
+        ->envname(variable_of(flag))
+        ->delimiter(',')
+        ->take_all();
+}
+
+/// Whether the command line gives this flag, so that its variable is not to be added to.
+bool is_given(const std::string& flag, int argc, const char* const* argv) {
+    return std::any_of(argv + 1, argv + argc, [&](const std::string& argument) {
+        return argument == flag || argument.starts_with(flag + "=");
+    });
+}
+
 /// The command line with the environment's values in front of it, where later values replace them.
 /// The library itself would let the configuration file win over the environment.
 std::vector<std::string> with_environment(const CLI::App& app, int argc, const char* const* argv) {
@@ -34,7 +50,10 @@ std::vector<std::string> with_environment(const CLI::App& app, int argc, const c
     for (const CLI::Option* option : app.get_options()) {
         const std::string variable = option->get_envname();
         const char* value = variable.empty() ? nullptr : std::getenv(variable.c_str());
-        if (value && *value) arguments.push_back(option->get_name() + "=" + value);
+        if (!value || !*value) continue;
+        const bool is_list = option->get_items_expected_max() > 1;
+        if (is_list && is_given(option->get_name(), argc, argv)) continue;
+        arguments.push_back(option->get_name() + "=" + value);
     }
     for (int i = 1; i < argc; ++i) arguments.emplace_back(argv[i]);
     std::reverse(arguments.begin(), arguments.end());  // as the library wants them
@@ -61,6 +80,9 @@ void add_network_and_work(CLI::App& app, Config& config) {
         ->check(CLI::Range(0.3, 86400.0));
     add(app, "--sweep-seconds", config.sweep_seconds, "Time between two looks for lost jobs")
         ->check(CLI::Range(0.1, 86400.0));
+    add(app, "--memory-budget", config.memory_budget,
+        "Memory for all jobs together in bytes, also as 2G or 512M; 0 chooses from the memory")
+        ->transform(CLI::AsSizeValue(false));
     app.add_option_function<std::string>(
            "--log-level",
            [&config](const std::string& name) { config.log_level = *level_from_name(name); },
@@ -69,6 +91,23 @@ void add_network_and_work(CLI::App& app, Config& config) {
         ->take_last()
         ->check(CLI::IsMember({"debug", "info", "warn", "error"}))
         ->default_str("info");
+}
+
+void add_access(CLI::App& app, Config& config) {
+    add(app, "--api-key-file", config.api_key_file,
+        "File with the API keys that open the service, a line each; read again after SIGHUP")
+        ->group("Access");
+    add_list(app, "--cors-origin", config.cors_origins,
+             "Origin of pages that may use the service, such as https://pages.example, or * for "
+             "all pages there are")
+        ->group("Access");
+    add_list(app, "--trusted-proxy", config.trusted_proxies,
+             "Address or block of a proxy whose X-Forwarded-For is believed")
+        ->group("Access");
+    app.add_option("--hash-key", config.hash_key,
+                   "Read a key on standard input, print its line for the API key file, and exit")
+        ->type_name("NAME")
+        ->group("Access");
 }
 
 void add_limits(CLI::App& app, Limits& limits) {
@@ -106,6 +145,7 @@ CommandLine parse_command_line(int argc, const char* const* argv) {
                  "Ask the server on --host and --admin-port whether it is healthy, and exit with 0 "
                  "or 1");
     add_network_and_work(app, line.config);
+    add_access(app, line.config);
     add_limits(app, line.config.limits);
     try {
         app.parse(with_environment(app, argc, argv));
@@ -126,6 +166,15 @@ Config resolve_threads(Config config, int cores) {
     if (config.limits.running_jobs_per_key == 0)
         config.limits.running_jobs_per_key = static_cast<std::uint64_t>(std::max(1, cores));
     if (config.http_threads == 0) config.http_threads = std::max(16, 2 * cores);
+    return config;
+}
+
+Config resolve_memory(Config config, std::uint64_t usable) {
+    constexpr std::uint64_t kServer = 256ULL << 20;
+    if (config.memory_budget == 0) {
+        const std::uint64_t rest = usable > kServer ? usable - kServer : 0;
+        config.memory_budget = std::max(usable / 4, std::min(usable / 4 * 3, rest));
+    }
     return config;
 }
 

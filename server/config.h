@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "api/limits.h"
 #include "server/log.h"
@@ -25,8 +26,13 @@ struct Config {
     double lease_seconds = 30;      ///< a worker that is not heard of for so long loses its job
     double sweep_seconds = 5;       ///< between two looks for such jobs
     LogLevel log_level = LogLevel::Info;
+    std::filesystem::path api_key_file;        ///< empty: everybody may use the service
+    std::vector<std::string> cors_origins;     ///< pages that may use it; "*": all of them
+    std::vector<std::string> trusted_proxies;  ///< addresses whose X-Forwarded-For is believed
+    std::uint64_t memory_budget = 0;           ///< bytes for all jobs; 0 = chosen from the memory
     Limits limits = {};
     bool health_check = false;  ///< only ask a running server whether it is healthy
+    std::string hash_key;       ///< only print the line of the key file for this name
 };
 
 /// What the command line led to: a configuration, or an end of the program.
@@ -40,6 +46,9 @@ struct CommandLine {
 
 /// Fills in what was left to be chosen, so that jobs x threads never exceeds the cores.
 [[nodiscard]] Config resolve_threads(Config config, int cores);
+
+/// Chooses the budget of the jobs, so that what the server itself needs is left.
+[[nodiscard]] Config resolve_memory(Config config, std::uint64_t usable);
 
 /// Flag of a limit: "uploadBytes" -> "--max-upload-bytes"; empty if it is no flag.
 [[nodiscard]] std::string limit_flag(std::string_view limit_name);

@@ -9,18 +9,20 @@
 #include "core/base/error.h"
 #include "server/app.h"
 #include "server/cores.h"
+#include "server/gate/api_keys.h"
 #include "server/http/health_check.h"
 
 namespace {
 
 using namespace lpf::server;
 
-/// SIGTERM and SIGINT, blocked in every thread that starts from here on, to be waited for.
+/// SIGTERM, SIGINT and SIGHUP, blocked in every thread that starts from here on, to be waited for.
 sigset_t block_stop_signals() {
     sigset_t signals;
     sigemptyset(&signals);
     sigaddset(&signals, SIGTERM);
     sigaddset(&signals, SIGINT);
+    sigaddset(&signals, SIGHUP);
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
     std::signal(SIGPIPE, SIG_IGN);
     return signals;
@@ -47,12 +49,26 @@ void run(const Config& config, Log& log) {
     std::cout << ready.dump() << std::endl;
     log.info("started", {{"jobs", config.jobs}, {"threads", config.threads}});
 
-    int signal = 0;
-    sigwait(&signals, &signal);
+    int signal = SIGHUP;
+    while (sigwait(&signals, &signal) == 0 && signal == SIGHUP) app.reload();
     log.info("stopping", {{"signal", signal}});
     leave_after(std::chrono::seconds(28));
     app.stop();
     log.info("stopped");
+}
+
+/// Prints the line that lets the key on standard input in.
+int print_key_line(const std::string& name) {
+    std::string key;
+    std::getline(std::cin, key);
+    if (!key.empty() && key.back() == '\r') key.pop_back();
+    try {
+        std::cout << lpf::gate::ApiKeys::line(name, key) << std::endl;
+        return 0;
+    } catch (const lpf::Error& error) {
+        std::cerr << "lpf-server: " << error.what() << std::endl;
+        return 2;
+    }
 }
 
 }  // namespace
@@ -60,9 +76,11 @@ void run(const Config& config, Log& log) {
 int main(int argc, char** argv) {
     const CommandLine line = parse_command_line(argc, argv);
     if (line.exit_code) return *line.exit_code;
+    if (!line.config.hash_key.empty()) return print_key_line(line.config.hash_key);
     if (line.config.health_check)
         return is_healthy(line.config.host, line.config.admin_port) ? 0 : 1;
-    const Config config = resolve_threads(line.config, usable_cores());
+    const Config config =
+        resolve_memory(resolve_threads(line.config, usable_cores()), usable_memory());
     Log log(config.log_level);
     try {
         run(config, log);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "server/gate.h"
 #include "server/http/listener.h"
 #include "server/router.h"
 #include "server/services.h"
@@ -10,7 +11,8 @@ namespace lpf::server {
 /// request leaves a line in the log and is counted.
 class Site {
 public:
-    Site(Services& services, Router router, http::ListenerOptions options);
+    /// @param gate stands before the routes; may be null, for a listener that nobody else reaches
+    Site(Services& services, Gate* gate, Router router, http::ListenerOptions options);
 
     int start() { return listener_.start(); }
     void stop(std::chrono::milliseconds patience) { listener_.stop(patience); }
@@ -22,6 +24,7 @@ private:
                                         double seconds);
 
     Services& services_;
+    Gate* gate_;
     Router router_;
     http::Listener listener_;
 };

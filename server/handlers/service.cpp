@@ -12,7 +12,10 @@ http::Response get_landing_page(Services&, http::Request&) { return json_respons
 http::Response get_conformance(Services&, http::Request&) { return json_response(conformance()); }
 
 http::Response get_openapi(Services& services, http::Request&) {
-    return json_response(openapi_document(services.limits(), version(), "/"));
+    http::Response response =
+        json_response(openapi_document(services.limits(), version(), "/"));
+    response.content_type = "application/vnd.oai.openapi+json;version=3.1";
+    return response;
 }
 
 http::Response get_info(Services& services, http::Request&) {
@@ -24,6 +27,7 @@ http::Response get_info(Services& services, http::Request&) {
     state.workers = gauges.workers;
     state.threads_per_job = static_cast<std::uint64_t>(services.config.threads);
     state.uptime_seconds = static_cast<std::uint64_t>(gauges.uptime_seconds);
+    state.authentication = !services.config.api_key_file.empty();
     return json_response(service_info(state, services.limits()));
 }
 

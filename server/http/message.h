@@ -77,6 +77,7 @@ struct Response {
     std::optional<FileSlice> file;  ///< instead of `body`
     std::shared_ptr<Feed> feed;     ///< instead of `body`: sent until it has ended
     Fields headers;
+    std::string problem = {};  ///< code of the problem that the body is, for logs and metrics
 
     /// Adds a header, or replaces the one of this name.
     Response& set(const std::string& name, std::string value);

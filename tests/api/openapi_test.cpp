@@ -53,6 +53,7 @@ TEST(OpenApi, HasEveryPathOfTheContract) {
     const std::pair<std::string, std::set<std::string>> expected[] = {
         {"/", {"get"}},
         {"/v1", {"get"}},
+        {"/v1/", {"get"}},
         {"/v1/conformance", {"get"}},
         {"/v1/openapi.json", {"get"}},
         {"/v1/info", {"get"}},

@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "server/cores.h"
 #include "tests/server/temporary_folder.h"
 
 namespace lpf::server {
@@ -54,6 +53,33 @@ TEST(Config, FlagWinsOverEnvironmentAndEnvironmentOverFile) {
     EXPECT_EQ(config.port, 3333);
     EXPECT_EQ(config.admin_port, 5555);
     EXPECT_EQ(config.jobs, 5);
+}
+
+TEST(Config, ListsComeFromSeveralFlagsOrOneVariable) {
+    const auto origins = parse({"--cors-origin", "https://a.example", "--cors-origin",
+                                "https://b.example,https://c.example"})
+                             .config.cors_origins;
+    EXPECT_EQ(origins, (std::vector<std::string>{"https://a.example", "https://b.example",
+                                                 "https://c.example"}));
+    ::setenv("LPF_TRUSTED_PROXY", "10.0.0.1,10.0.0.2", 1);
+    const auto proxies = parse({}).config.trusted_proxies;
+    const auto flagged = parse({"--trusted-proxy", "10.0.0.3"}).config.trusted_proxies;
+    ::unsetenv("LPF_TRUSTED_PROXY");
+    EXPECT_EQ(proxies, (std::vector<std::string>{"10.0.0.1", "10.0.0.2"}));
+    EXPECT_EQ(flagged, (std::vector<std::string>{"10.0.0.3"}));
+}
+
+TEST(Config, NobodyIsKnownOrTrustedByDefault) {
+    const Config config = parse({}).config;
+    EXPECT_TRUE(config.api_key_file.empty());
+    EXPECT_TRUE(config.cors_origins.empty());
+    EXPECT_TRUE(config.trusted_proxies.empty());
+}
+
+TEST(Config, TheMemoryBudgetTakesUnits) {
+    EXPECT_EQ(parse({"--memory-budget", "512M"}).config.memory_budget, 512ULL << 20);
+    EXPECT_EQ(parse({"--memory-budget", "2G"}).config.memory_budget, 2ULL << 30);
+    EXPECT_EQ(parse({"--memory-budget", "much"}).exit_code, 2);
 }
 
 TEST(Config, EnvironmentSetsLimits) {
@@ -110,24 +136,15 @@ INSTANTIATE_TEST_SUITE_P(All, ThreadSharing,
                                          ThreadCase{"TooManyAsked", 100, 100, 4, 4, 1}),
                          [](const auto& tested) { return tested.param.name; });
 
-TEST(Cores, ReadsTheQuotaOfControlGroupsVersion2) {
-    const TemporaryFolder folder;
-    write(folder.path() / "cpu.max", "150000 100000\n");
-    EXPECT_EQ(cgroup_cores(folder.path()), 2);
-    write(folder.path() / "cpu.max", "max 100000\n");
-    EXPECT_EQ(cgroup_cores(folder.path()), 0);
+TEST(Config, TheMemoryBudgetLeavesRoomForTheServerItself) {
+    constexpr std::uint64_t kMib = 1ULL << 20;
+    EXPECT_EQ(resolve_memory({}, 512 * kMib).memory_budget, 256 * kMib);
+    EXPECT_EQ(resolve_memory({}, 8192 * kMib).memory_budget, 6144 * kMib);
+    EXPECT_EQ(resolve_memory({}, 128 * kMib).memory_budget, 32 * kMib);
+    Config chosen;
+    chosen.memory_budget = 5 * kMib;
+    EXPECT_EQ(resolve_memory(chosen, 512 * kMib).memory_budget, 5 * kMib);
 }
-
-TEST(Cores, ReadsTheQuotaOfControlGroupsVersion1) {
-    const TemporaryFolder folder;
-    write(folder.path() / "cpu" / "cpu.cfs_quota_us", "50000\n");
-    write(folder.path() / "cpu" / "cpu.cfs_period_us", "100000\n");
-    EXPECT_EQ(cgroup_cores(folder.path()), 1);
-    write(folder.path() / "cpu" / "cpu.cfs_quota_us", "-1\n");
-    EXPECT_EQ(cgroup_cores(folder.path()), 0);
-}
-
-TEST(Cores, ThereIsAlwaysOne) { EXPECT_GE(usable_cores(), 1); }
 
 }  // namespace
 }  // namespace lpf::server

@@ -65,5 +65,22 @@ TEST(Telemetry, CountsRequestsByRouteAndStatus) {
         EXPECT_NE(text.find(line), std::string::npos) << line;
 }
 
+TEST(Telemetry, CountsWhatGoesWrong) {
+    Telemetry telemetry("1");
+    telemetry.count_problem("queue-full");
+    telemetry.count_problem("queue-full");
+    telemetry.count_lease_loss();
+    telemetry.observe_queue_wait(0.02);
+    telemetry.observe_phase("analyze", 3.0);
+    telemetry.add_event_streams(2);
+    telemetry.add_event_streams(-1);
+    const std::string text = telemetry.text({});
+    for (const char* line :
+         {"lpf_problems_total{code=\"queue-full\"} 2\n", "lpf_lease_losses_total 1\n",
+          "lpf_queue_wait_seconds_count 1\n", "lpf_phase_seconds_sum{phase=\"analyze\"} 3\n",
+          "lpf_event_streams 1\n"})
+        EXPECT_NE(text.find(line), std::string::npos) << line;
+}
+
 }  // namespace
 }  // namespace lpf::server
