@@ -30,8 +30,8 @@ def start(tmp_path):
     needs_binary()
     servers = []
 
-    def make(*flags):
-        servers.append(Server(tmp_path / "data", *flags))
+    def make(*flags, log=None):
+        servers.append(Server(tmp_path / "data", *flags, log=log))
         return servers[-1]
 
     yield make

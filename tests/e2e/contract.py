@@ -32,6 +32,7 @@ class Contract:
     def check(self, method, path, response):
         operation = self.operation(method, path)
         where = f"{method} {path} -> {response.status_code}"
+        assert response.headers.get("X-Request-Id"), f"{where} has no id"
         answers = operation["responses"]
         assert str(response.status_code) in answers, f"{where} is not documented: {response.text}"
         answer = self.resolve(answers[str(response.status_code)])
@@ -47,20 +48,26 @@ class Contract:
             validator = jsonschema.Draft202012Validator(schema, resolver=self.resolver)
             errors = sorted(validator.iter_errors(response.json()), key=str)
             assert not errors, f"{where}: {errors[0].message} at {list(errors[0].absolute_path)}"
+        if response.status_code >= 400 and media_type == "application/problem+json":
+            said = response.json().get("requestId", response.headers["X-Request-Id"])
+            assert said == response.headers["X-Request-Id"], f"{where} has two ids"
 
 
 class Client:
     """Sends requests to one server and checks every answer."""
 
-    def __init__(self, url):
+    def __init__(self, url, headers=None):
+        """`headers` go with every request, such as a key."""
         self.url = url
-        document = requests.get(url + "/v1/openapi.json", timeout=30)
+        self.headers = headers or {}
+        document = requests.get(url + "/v1/openapi.json", headers=self.headers, timeout=30)
         assert document.status_code == 200
         self.contract = Contract(document.json())
 
     def raw(self, method, path, **options):
         """A request that the document does not speak of."""
-        return requests.request(method, self.url + path, timeout=120, **options)
+        headers = {**self.headers, **options.pop("headers", {})}
+        return requests.request(method, self.url + path, timeout=120, headers=headers, **options)
 
     def request(self, method, path, **options):
         response = self.raw(method, path, **options)

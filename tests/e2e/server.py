@@ -9,12 +9,14 @@ import subprocess
 class Server:
     """A running lpf-server. The same folder may be given to one after the other."""
 
-    def __init__(self, folder, *flags):
+    def __init__(self, folder, *flags, log=None):
+        """The log goes to the file `log`, or to where the tests' own errors go."""
+        self.log = open(log, "wb") if log else None  # pylint: disable=consider-using-with
         self.process = subprocess.Popen(
             [os.environ["LPF_SERVER_BINARY"], "--port", "0", "--admin-port", "0",
              "--data-dir", str(folder), "--disk-floor-bytes", "0", "--disk-floor-percent", "0",
              "--log-level", "warn", *flags],
-            stdout=subprocess.PIPE, text=True)
+            stdout=subprocess.PIPE, stderr=self.log, text=True)
         line = self.process.stdout.readline()
         if not line:
             raise RuntimeError(f"the server did not start: exit {self.process.wait()}")
@@ -40,3 +42,5 @@ class Server:
         if self.process.poll() is None:
             self.kill()
         self.process.stdout.close()
+        if self.log:
+            self.log.close()
