@@ -80,9 +80,6 @@ void add_network_and_work(CLI::App& app, Config& config) {
         ->check(CLI::Range(0.3, 86400.0));
     add(app, "--sweep-seconds", config.sweep_seconds, "Time between two looks for lost jobs")
         ->check(CLI::Range(0.1, 86400.0));
-    add(app, "--memory-budget", config.memory_budget,
-        "Memory for all jobs together in bytes, also as 2G or 512M; 0 chooses from the memory")
-        ->transform(CLI::AsSizeValue(false));
     app.add_option_function<std::string>(
            "--log-level",
            [&config](const std::string& name) { config.log_level = *level_from_name(name); },

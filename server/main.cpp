@@ -47,7 +47,9 @@ void run(const Config& config, Log& log) {
                                        {"adminPort", app.admin_port()},
                                        {"version", version()}};
     std::cout << ready.dump() << std::endl;
-    log.info("started", {{"jobs", config.jobs}, {"threads", config.threads}});
+    log.info("started", {{"jobs", config.jobs},
+                         {"threads", config.threads},
+                         {"memoryBudget", static_cast<std::int64_t>(config.memory_budget)}});
 
     int signal = SIGHUP;
     while (sigwait(&signals, &signal) == 0 && signal == SIGHUP) app.reload();

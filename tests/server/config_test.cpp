@@ -76,12 +76,6 @@ TEST(Config, NobodyIsKnownOrTrustedByDefault) {
     EXPECT_TRUE(config.trusted_proxies.empty());
 }
 
-TEST(Config, TheMemoryBudgetTakesUnits) {
-    EXPECT_EQ(parse({"--memory-budget", "512M"}).config.memory_budget, 512ULL << 20);
-    EXPECT_EQ(parse({"--memory-budget", "2G"}).config.memory_budget, 2ULL << 30);
-    EXPECT_EQ(parse({"--memory-budget", "much"}).exit_code, 2);
-}
-
 TEST(Config, EnvironmentSetsLimits) {
     ::setenv("LPF_MAX_QUEUED_JOBS", "7", 1);
     const Config config = parse({}).config;
