@@ -85,7 +85,8 @@ def connections(port):
 def slow_upload(port, stop):
     """Sends a head and then a byte a second, as one does who means harm or has a bad line."""
     with contextlib.suppress(OSError), socket.create_connection(("127.0.0.1", port)) as line:
-        line.sendall(b"POST /v1/shapes HTTP/1.1\r\nHost: lpf\r\nContent-Length: 100000\r\n\r\nply\n")
+        line.sendall(b"POST /v1/shapes HTTP/1.1\r\nHost: lpf\r\n"
+                     b"Content-Length: 100000\r\n\r\nply\n")
         while not stop.wait(1):
             line.sendall(b"x")
 
