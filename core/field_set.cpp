@@ -45,7 +45,7 @@ FieldSet::FieldSet(const Shape& shape, const AnalysisParams& params, const Execu
     : pattern_(make_pattern(params)),
       samples_(mesh_samples(shape, params)),
       grid_(samples_.triangle.empty() ? shape.cloud.points : samples_.points,
-            kCellPerRadius * params.radius),
+            kCellPerRadius * params.radius, execution),
       radius_(params.radius),
       target_radius_(static_cast<float>(params.target_radius)) {
     switch (params.probing) {

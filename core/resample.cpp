@@ -50,7 +50,7 @@ private:
 
 std::vector<std::uint32_t> nearest_sources(const Points& input, const Points& points,
                                            const Execution& execution) {
-    const SpatialIndex index(input);
+    const SpatialIndex index(input, execution);
     std::vector<std::uint32_t> source(static_cast<std::size_t>(points.cols()));
     parallel_for(execution, "attributes", "points", source.size(), 4096,
                  [&](std::size_t begin, std::size_t end, std::size_t) {

@@ -98,6 +98,12 @@ void parallel_for(const Execution& execution, std::string_view phase, std::strin
                  });
 }
 
+Execution on_one_thread(const Execution& execution) {
+    Execution sequential = execution;
+    sequential.threads = 1;
+    return sequential;
+}
+
 Execution part_of(const Execution& execution, double low, double high) {
     Execution part = execution;
     if (execution.progress) {

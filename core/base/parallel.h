@@ -32,6 +32,10 @@ void parallel_for(const Execution& execution, std::size_t n, std::size_t chunk_s
 /// @throws Error{Cancelled} when the stop token has fired
 void throw_if_cancelled(const Execution& execution);
 
+/// The same for a loop whose steps depend on each other: one thread, still in chunks that ask for
+/// cancellation and tell progress.
+[[nodiscard]] Execution on_one_thread(const Execution& execution);
+
 /// The part [low, high] of the caller's progress bar as an Execution of its own, so that a
 /// computation made of steps reports one rising fraction.
 [[nodiscard]] Execution part_of(const Execution& execution, double low, double high);

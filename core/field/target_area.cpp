@@ -13,14 +13,18 @@ namespace {
 /// Cells along an axis at most: three axes must fit one 63-bit key, and the slabs need a table.
 constexpr double kMaximumCells = 1 << 20;
 
+/// Points between two questions whether to stop.
+constexpr std::size_t kPointsPerQuestion = 1U << 18U;
+
 using Keyed = std::pair<std::uint64_t, std::uint32_t>;
 
 /// Stable radix sort by key, 11 bits a pass, only as many passes as the largest key needs.
-void sort_by_key(std::vector<Keyed>& items, std::uint64_t largest_key) {
+void sort_by_key(std::vector<Keyed>& items, std::uint64_t largest_key, const Execution& execution) {
     constexpr unsigned kBits = 11;
     constexpr std::uint64_t kMask = (1U << kBits) - 1;
     std::vector<Keyed> sorted(items.size());
     for (unsigned shift = 0; shift < 64 && (largest_key >> shift) != 0; shift += kBits) {
+        throw_if_cancelled(execution);
         std::array<std::uint32_t, kMask + 1> start{};
         for (const Keyed& item : items) ++start[(item.first >> shift) & kMask];
         std::uint32_t total = 0;
@@ -46,7 +50,7 @@ void TargetArea::to_frame(const Frame& frame) {
     kernels::to_frame(axes.data(), frame.origin.data(), x.data(), y.data(), z.data(), size);
 }
 
-PointGrid::PointGrid(const Points& points, double cell) {
+PointGrid::PointGrid(const Points& points, double cell, const Execution& execution) {
     if (points.cols() == 0) {
         slab_first_row_ = {0, 0};
         rows_ = {{0, 0}};
@@ -60,7 +64,8 @@ PointGrid::PointGrid(const Points& points, double cell) {
     for (int axis = 0; axis < 3; ++axis) {
         size_[axis] = static_cast<std::uint64_t>(extent[axis] * inverse_cell_) + 1;
     }
-    sort_points(points);
+    sort_points(points, execution);
+    throw_if_cancelled(execution);
     index_cells();
 }
 
@@ -73,20 +78,22 @@ std::uint64_t PointGrid::key_of(const Eigen::Vector3d& relative) const {
     return (cell[2] * size_[1] + cell[1]) * size_[0] + cell[0];
 }
 
-void PointGrid::sort_points(const Points& points) {
+void PointGrid::sort_points(const Points& points, const Execution& execution) {
     const auto n = static_cast<std::size_t>(points.cols());
     std::vector<Keyed> items(n);
     for (std::size_t i = 0; i < n; ++i) {
+        if (i % kPointsPerQuestion == 0) throw_if_cancelled(execution);
         items[i] = {key_of(points.col(static_cast<Eigen::Index>(i)) - origin_),
                     static_cast<std::uint32_t>(i)};
     }
-    sort_by_key(items, size_[0] * size_[1] * size_[2]);
+    sort_by_key(items, size_[0] * size_[1] * size_[2], execution);
 
     order_.resize(n);
     x_.resize(n);
     y_.resize(n);
     z_.resize(n);
     for (std::size_t i = 0; i < n; ++i) {
+        if (i % kPointsPerQuestion == 0) throw_if_cancelled(execution);
         order_[i] = items[i].second;
         const Eigen::Vector3d relative = points.col(items[i].second) - origin_;
         x_[i] = relative.x();

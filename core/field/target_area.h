@@ -30,7 +30,7 @@ struct TargetArea {
 class PointGrid {
 public:
     /// @param cell side of the cells [input length], > 0
-    PointGrid(const Points& points, double cell);
+    PointGrid(const Points& points, double cell, const Execution& execution = {});
 
     [[nodiscard]] std::size_t size() const { return order_.size(); }
 
@@ -56,7 +56,7 @@ private:
         std::uint32_t first_point;  // into the sorted arrays
     };
 
-    void sort_points(const Points& points);
+    void sort_points(const Points& points, const Execution& execution);
     void index_cells();
     [[nodiscard]] std::uint64_t key_of(const Eigen::Vector3d& relative) const;
 

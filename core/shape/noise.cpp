@@ -71,28 +71,29 @@ double noise_at(const Points& points, const SpatialIndex& index, double radius,
                 const Execution& execution) {
     const std::vector<Eigen::Index> chosen = sample(points, kNoiseSample);
     std::vector<double> spreads(chosen.size(), -1.0);
-    parallel_for(execution, chosen.size(), 16,
-                 [&](std::size_t begin, std::size_t end, std::size_t) {
-                     for (std::size_t i = begin; i < end; ++i) {
-                         const auto ball = index.within(points.col(chosen[i]), radius);
-                         if (ball.size() >= kFewestForPlane) {
-                             spreads[i] = spread_off_plane(points, ball);
-                         }
-                     }
-                 });
+    parallel_for(execution, chosen.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto ball = index.within(points.col(chosen[i]), radius);
+            if (ball.size() >= kFewestForPlane) {
+                spreads[i] = spread_off_plane(points, ball);
+            }
+        }
+    });
     std::erase(spreads, -1.0);
     return median(spreads);
 }
 
 /// Distances to the nearest other position, and to the point that makes the ball full.
 /// @returns the median radius of the smallest ball to look for noise in
-double measure_spacing(const Points& points, const SpatialIndex& index, Measurements& result) {
+double measure_spacing(const Points& points, const SpatialIndex& index, Measurements& result,
+                       const Execution& execution) {
     std::vector<double> full;
     std::vector<double> small;
     double sum = 0.0;
     std::size_t counted = 0;
     const std::size_t k = std::min(kPointsInBall, result.points);
     for (const Eigen::Index i : sample(points, kSpacingSample)) {
+        throw_if_cancelled(execution);
         const auto neighbours = index.nearest(points.col(i), k);
         const auto other = std::ranges::find_if(
             neighbours, [](const auto& neighbour) { return neighbour.squared_distance > 0; });
@@ -122,8 +123,8 @@ Measurements measure(const Points& points, const Execution& execution) {
         throw Error(ErrorCode::DegenerateShape,
                     "All points of the shape coincide: it has no extent.");
     }
-    const SpatialIndex index(points);
-    double radius = measure_spacing(points, index, result);
+    const SpatialIndex index(points, execution);
+    double radius = measure_spacing(points, index, result, execution);
     for (int round = 0; round < kRounds; ++round) {
         throw_if_cancelled(execution);
         result.noise = noise_at(points, index, radius, execution);

@@ -54,7 +54,7 @@ Eigen::Vector3d turned(const Eigen::Vector3d& normal, const Eigen::Vector3d& out
 Eigen::Matrix3Xf estimate_normals(const Points& points, int k, const Execution& execution) {
     Eigen::Matrix3Xf normals(3, points.cols());
     if (points.cols() == 0) return normals;
-    const SpatialIndex index(points);
+    const SpatialIndex index(points, execution);
     const Eigen::Vector3d centre =
         points.rowwise().minCoeff() / 2 + points.rowwise().maxCoeff() / 2;
     const auto wanted = static_cast<std::size_t>(std::max(k, 3));

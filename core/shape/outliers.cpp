@@ -4,6 +4,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numeric>
+#include <span>
 
 #include "core/shape/spatial_index.h"
 
@@ -19,7 +21,7 @@ constexpr double kLeastDeviation = 0.2;
 
 /// Mean distance of each point to its nearest other points.
 std::vector<double> mean_distances(const Points& points, const Execution& execution) {
-    const SpatialIndex index(points);
+    const SpatialIndex index(points, execution);
     std::vector<double> distances(static_cast<std::size_t>(points.cols()));
     parallel_for(execution, "outliers", "points", distances.size(), 4096,
                  [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -45,17 +47,24 @@ double median(std::vector<double> values) {
 }
 
 /// The distance above which a point is isolated.
-double limit_for(const std::vector<double>& distances, double deviations) {
+double limit_for(const std::vector<double>& distances, double deviations,
+                 const Execution& execution) {
     std::vector<double> logarithms;
     for (const double distance : distances) {
         if (distance > 0) logarithms.push_back(std::log(distance));  // 0: a heap of duplicates
     }
     if (logarithms.empty()) return 0;
+    throw_if_cancelled(execution);
     const double centre = median(logarithms);
+    throw_if_cancelled(execution);
     for (double& value : logarithms) value = std::abs(value - centre);
     const double deviation = std::max(kLeastDeviation, 1.4826 * median(logarithms));
     return std::exp(centre + deviations * deviation);
 }
+
+/// Equal positions have equal hashes, so each bucket of hashes is searched for itself.
+constexpr std::size_t kBuckets = 1024;
+constexpr std::uint64_t kHashesPerBucket = (~std::uint64_t{0} / kBuckets) + 1;
 
 struct Key {
     std::uint64_t hash;
@@ -77,11 +86,54 @@ void mark_repeats(const Points& points, std::span<Key> run, std::vector<std::uin
     const auto place = [&](const Key& key) {
         return std::array{points(0, key.index), points(1, key.index), points(2, key.index)};
     };
-    std::stable_sort(run.begin(), run.end(),
-                     [&](const Key& a, const Key& b) { return place(a) < place(b); });
-    for (std::size_t i = 1; i < run.size(); ++i) {
-        if (place(run[i]) == place(run[i - 1])) repeated[run[i].index] = 1;
+    const auto first = place(run.front());
+    const bool one_place =
+        std::all_of(run.begin(), run.end(), [&](const Key& key) { return place(key) == first; });
+    if (!one_place) {
+        std::stable_sort(run.begin(), run.end(),
+                         [&](const Key& a, const Key& b) { return place(a) < place(b); });
     }
+    for (std::size_t i = 1; i < run.size(); ++i) {
+        if (one_place || place(run[i]) == place(run[i - 1])) repeated[run[i].index] = 1;
+    }
+}
+
+/// Sorts a bucket, unless it is a heap of one position, and marks its repeats.
+void mark_bucket(const Points& points, std::span<Key> keys, std::vector<std::uint8_t>& repeated) {
+    const auto by_hash = [](const Key& a, const Key& b) {
+        return a.hash != b.hash ? a.hash < b.hash : a.index < b.index;
+    };
+    if (!std::is_sorted(keys.begin(), keys.end(), by_hash)) {
+        std::sort(keys.begin(), keys.end(), by_hash);
+    }
+    for (std::size_t begin = 0; begin < keys.size();) {
+        std::size_t end = begin + 1;
+        while (end < keys.size() && keys[end].hash == keys[begin].hash) ++end;
+        if (end - begin > 1) mark_repeats(points, keys.subspan(begin, end - begin), repeated);
+        begin = end;
+    }
+}
+
+/// The points by the bucket of their position, in their order within a bucket.
+/// @param ends receives where each bucket ends
+std::vector<Key> into_buckets(const Points& points, std::array<std::size_t, kBuckets>& ends,
+                              const Execution& execution) {
+    const auto n = static_cast<std::size_t>(points.cols());
+    std::vector<std::uint64_t> hashes(n);
+    parallel_for(execution, n, 1U << 16U, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end; ++i) {
+            hashes[i] = hash_position(points, static_cast<std::uint32_t>(i));
+        }
+    });
+    ends.fill(0);
+    for (const std::uint64_t hash : hashes) ++ends[hash / kHashesPerBucket];
+    std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), std::size_t{0});
+    throw_if_cancelled(execution);
+    std::vector<Key> keys(n);
+    for (std::uint32_t i = 0; i < n; ++i) {
+        keys[ends[hashes[i] / kHashesPerBucket]++] = {hashes[i], i};
+    }
+    return keys;
 }
 
 }  // namespace
@@ -91,27 +143,21 @@ std::vector<std::uint8_t> find_outliers(const Points& points, double deviations,
     std::vector<std::uint8_t> isolated(static_cast<std::size_t>(points.cols()), 0);
     if (isolated.size() < kFewestPoints) return isolated;
     const std::vector<double> distances = mean_distances(points, execution);
-    const double limit = limit_for(distances, deviations);
+    const double limit = limit_for(distances, deviations, execution);
     for (std::size_t i = 0; i < isolated.size(); ++i) isolated[i] = distances[i] > limit;
     return isolated;
 }
 
-std::vector<std::uint8_t> find_duplicates(const Points& points) {
-    const auto n = static_cast<std::size_t>(points.cols());
-    std::vector<std::uint8_t> repeated(n, 0);
-    std::vector<Key> keys(n);
-    for (std::uint32_t i = 0; i < n; ++i) keys[i] = {hash_position(points, i), i};
-    std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
-        return a.hash != b.hash ? a.hash < b.hash : a.index < b.index;
-    });
-    for (std::size_t begin = 0; begin < n;) {
-        std::size_t end = begin + 1;
-        while (end < n && keys[end].hash == keys[begin].hash) ++end;
-        if (end - begin > 1) {
-            mark_repeats(points, std::span(keys).subspan(begin, end - begin), repeated);
-        }
-        begin = end;
-    }
+std::vector<std::uint8_t> find_duplicates(const Points& points, const Execution& execution) {
+    std::vector<std::uint8_t> repeated(static_cast<std::size_t>(points.cols()), 0);
+    std::array<std::size_t, kBuckets> ends{};
+    std::vector<Key> keys = into_buckets(points, ends, execution);
+    parallel_for(execution, "duplicates", "buckets", kBuckets, 1,
+                 [&](std::size_t bucket, std::size_t, std::size_t) {
+                     const std::size_t begin = bucket == 0 ? 0 : ends[bucket - 1];
+                     mark_bucket(points, std::span(keys).subspan(begin, ends[bucket] - begin),
+                                 repeated);
+                 });
     return repeated;
 }
 

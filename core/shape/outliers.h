@@ -16,6 +16,7 @@ namespace lpf {
                                                       const Execution& execution);
 
 /// Marks every point that repeats the exact position of an earlier one.
-[[nodiscard]] std::vector<std::uint8_t> find_duplicates(const Points& points);
+[[nodiscard]] std::vector<std::uint8_t> find_duplicates(const Points& points,
+                                                        const Execution& execution = {});
 
 }  // namespace lpf

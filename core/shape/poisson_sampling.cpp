@@ -113,9 +113,7 @@ std::vector<std::uint32_t> poisson_disk_subset(const Points& points, double spac
     DiskSet disks(points, spacing);
     const Permutation permutation(n, random_seed);
     // Each choice depends on those before: one thread, in chunks for cancellation and progress.
-    Execution sequential = execution;
-    sequential.threads = 1;
-    parallel_for(sequential, "seeds", "points", n, 1U << 16U,
+    parallel_for(on_one_thread(execution), "seeds", "points", n, 1U << 16U,
                  [&](std::size_t begin, std::size_t end, std::size_t) {
                      for (std::size_t i = begin; i < end; ++i) {
                          const auto index = static_cast<std::uint32_t>(permutation[i]);

@@ -10,14 +10,22 @@ namespace {
 
 using Neighbour = SpatialIndex::Neighbour;
 
-/// What nanoflann reads: points as columns.
+constexpr std::uint32_t kReadsPerQuestion = 1U << 16U;  // a millisecond
+
+/// What nanoflann reads: points as columns. While it builds the tree, which it cannot be told to
+/// stop, it is asked for a coordinate time and again: there the build is given up.
 struct Columns {
     Points points;
+    const Execution* building = nullptr;
+    mutable std::uint32_t reads = 0;  ///< counted while building, on one thread
 
     [[nodiscard]] std::size_t kdtree_get_point_count() const {
         return static_cast<std::size_t>(points.cols());
     }
     [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const {
+        if (building != nullptr) [[unlikely]] {
+            if (++reads % kReadsPerQuestion == 0) throw_if_cancelled(*building);
+        }
         return points(static_cast<Eigen::Index>(axis), static_cast<Eigen::Index>(i));
     }
     template <typename Box>
@@ -84,8 +92,12 @@ Eigen::Vector3d centre_of(const Points& points) {
 }  // namespace
 
 struct SpatialIndex::Tree {
-    explicit Tree(const Points& points)
-        : centre(centre_of(points)), columns{points.colwise() - centre}, tree(3, columns) {}
+    Tree(const Points& points, const Execution& execution)
+        : centre(centre_of(points)),
+          columns{points.colwise() - centre, &execution},
+          tree(3, columns) {
+        columns.building = nullptr;
+    }
 
     template <typename ResultSet>
     void search(const Eigen::Vector3d& query, ResultSet& results) const {
@@ -99,7 +111,8 @@ struct SpatialIndex::Tree {
     KdTree tree;
 };
 
-SpatialIndex::SpatialIndex(const Points& points) : tree_(std::make_unique<Tree>(points)) {}
+SpatialIndex::SpatialIndex(const Points& points, const Execution& execution)
+    : tree_(std::make_unique<Tree>(points, execution)) {}
 SpatialIndex::~SpatialIndex() = default;
 SpatialIndex::SpatialIndex(SpatialIndex&&) noexcept = default;
 SpatialIndex& SpatialIndex::operator=(SpatialIndex&&) noexcept = default;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/shape/point_cloud.h"
 
 namespace lpf {
@@ -13,7 +14,8 @@ namespace lpf {
 class SpatialIndex {
 public:
     /// @pre all coordinates finite. An empty cloud is allowed and finds nothing.
-    explicit SpatialIndex(const Points& points);
+    /// @throws Error{Cancelled} when the stop token fires while the tree is built
+    explicit SpatialIndex(const Points& points, const Execution& execution = {});
     ~SpatialIndex();
     SpatialIndex(SpatialIndex&&) noexcept;
     SpatialIndex& operator=(SpatialIndex&&) noexcept;
