@@ -14,7 +14,7 @@ function(lpf_configure_target target)
                                             -fno-sanitize-recover=all)
     target_link_options(${target} PUBLIC -fsanitize=${LPF_SANITIZE})
     # Run-time dispatch resolves before a sanitizer is up, so its builds use one instruction set.
-    target_compile_definitions(${target} PRIVATE LPF_NO_MULTIVERSION)
+    target_compile_definitions(${target} PRIVATE LPF_NO_MULTIVERSION LPF_SANITIZED)
   endif()
 endfunction()
 

@@ -11,14 +11,14 @@ packages=(
     build-essential cmake ninja-build ccache pkg-config git ca-certificates curl
     # libraries of the product
     libeigen3-dev libnanoflann-dev libdraco-dev nlohmann-json3-dev libcpp-httplib-dev
-    libssl-dev zlib1g-dev libsqlite3-dev libcli11-dev
+    libssl-dev zlib1g-dev libsqlite3-dev libcli11-dev libseccomp-dev
     # tests and lpf-scan
     libgtest-dev libgmock-dev libpng-dev python3 python3-pytest python3-requests python3-jsonschema
     python3-prometheus-client nginx-light
 )
 # npm builds the web page. One that is not Debian's is as good.
 command -v npm >/dev/null || packages+=(nodejs npm)
-developer_packages=(clang-format clang-tidy clang shellcheck)
+developer_packages=(clang-format clang-tidy clang libclang-rt-dev shellcheck)
 
 explain() {
     cat >&2 <<TEXT
@@ -28,7 +28,7 @@ It knows Debian 12 or newer (and Ubuntu 24.04 or newer), as root or with sudo. E
 install these by hand, then run the script that you came from again:
   a C++20 compiler (g++ 12, clang 14 or newer), CMake 3.25, Ninja, pkg-config, git, curl, Python 3
   Eigen 3.4, nanoflann 1.4, Draco 1.5, nlohmann-json 3.11, cpp-httplib 0.11, OpenSSL, zlib, SQLite 3,
-  CLI11 2, GoogleTest, libpng, and for Python: pytest, requests, jsonschema
+  CLI11 2, libseccomp, GoogleTest, libpng, and for Python: pytest, requests, jsonschema
 Under Debian their packages are:
   ${packages[*]}
 TEXT

@@ -1,5 +1,6 @@
 #include "server/ingest.h"
 
+#include "api/codec/summary.h"
 #include "api/http_text.h"
 #include "api/problem.h"
 #include "core/base/error.h"
@@ -11,8 +12,8 @@
 namespace lpf::server {
 namespace {
 
-constexpr std::size_t kMaxFields = 64;              // more than there are inputs
-constexpr std::size_t kMeasuredPoints = 3'000'000;  // larger shapes are measured by their job
+constexpr std::size_t kMaxFields = 64;            // more than there are inputs
+constexpr std::size_t kMeasuredPoints = 500'000;  // larger shapes are measured by their job
 constexpr std::uint64_t kLeastPoints = 3;
 
 /// Counts bytes against a limit, because a chunked or compressed body declares none.
@@ -124,31 +125,33 @@ private:
     std::string mistake_;
 };
 
-std::optional<double> measured_spacing(const Points& points) {
-    if (static_cast<std::size_t>(points.cols()) > kMeasuredPoints) return std::nullopt;
+std::optional<double> measured_spacing(const FileSummary& summary) {
+    if (!summary.sample_is_whole()) return std::nullopt;
     try {
-        return measure(points, {}).mean_spacing;
+        return measure(summary.sample, {}).mean_spacing;
     } catch (const Error&) {  // too few points, or all in one place: there is no spacing
         return std::nullopt;
     }
 }
 
-/// What the file holds; throws if it cannot be read.
+/// What the file holds, in little memory; throws if it cannot be read.
 ShapeInfo inspect(Services& services, BlobWriter& file) {
     const DecoderSeat seat(services);
     const MappedFile content(file.staged());
-    const Document document = decode(content.bytes(), decode_limits(services.limits()));
+    FileSummary summary = summarize(
+        content.bytes(), decode_limits(services.limits()),
+        {.most_sampled = kMeasuredPoints, .passed = [&](std::size_t n) { content.let_go(n); }});
     ShapeInfo info;
-    info.format = file_extension(document.format);
+    info.format = file_extension(summary.format);
     info.bytes = file.size();
-    info.points = document.shape.size();
-    info.faces = document.face_count();
-    info.attributes = attribute_infos(document.shape.cloud);
-    info.warnings = document.warnings;
+    info.points = summary.points;
+    info.faces = summary.faces;
+    info.warnings = summary.warnings;
     if (info.points > 0) {
-        info.bounds = bounds_of(document.shape.cloud.points);
-        info.mean_spacing = measured_spacing(document.shape.cloud.points);
+        info.bounds = Bounds{summary.minimum, summary.maximum};
+        info.mean_spacing = measured_spacing(summary);
     }
+    info.attributes = attribute_infos({.points = {}, .attributes = std::move(summary.columns)});
     return info;
 }
 

@@ -28,4 +28,9 @@ MappedFile::~MappedFile() {
     if (data_) ::munmap(const_cast<std::byte*>(data_), size_);
 }
 
+void MappedFile::let_go(std::size_t bytes) const {
+    const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+    if (data_) ::madvise(const_cast<std::byte*>(data_), bytes / page * page, MADV_DONTNEED);
+}
+
 }  // namespace lpf::server

@@ -21,6 +21,9 @@ public:
         return {reinterpret_cast<const char*>(data_), size_};
     }
 
+    /// Takes the first bytes out of memory; they are read again from the disk if need be.
+    void let_go(std::size_t bytes) const;
+
 private:
     const std::byte* data_ = nullptr;
     std::size_t size_ = 0;

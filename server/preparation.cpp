@@ -21,7 +21,7 @@ std::uint64_t count(const Flags& flags) {
 }
 
 /// The document with only the points that are not flagged.
-Document without(const Document& document, const Flags& flags) {
+Document without(const Document& document, const Flags& flags, const Execution& execution) {
     std::vector<std::uint32_t> rows;
     for (std::size_t i = 0; i < flags.size(); ++i)
         if (!flags[i]) rows.push_back(static_cast<std::uint32_t>(i));
@@ -30,8 +30,10 @@ Document without(const Document& document, const Flags& flags) {
     kept.points.resize(3, static_cast<Eigen::Index>(rows.size()));
     for (std::size_t i = 0; i < rows.size(); ++i)
         kept.points.col(static_cast<Eigen::Index>(i)) = cloud.points.col(rows[i]);
-    for (const Attribute& attribute : cloud.attributes)
+    for (const Attribute& attribute : cloud.attributes) {
+        throw_if_cancelled(execution);
         kept.attributes.push_back(gather(attribute, rows));
+    }
     return with_points(document, std::move(kept), false);
 }
 
@@ -65,17 +67,20 @@ void apply_normals(PointCloud& cloud, NormalPolicy policy, const Execution& exec
         for (const char* name : kNormalNames) remove_attribute(cloud, name);
 }
 
-std::vector<Attribute> carried(const PointCloud& source, const Computation& result) {
+std::vector<Attribute> carried(const PointCloud& source, const Computation& result,
+                               const Execution& execution) {
     if (result.keeps_vertices()) return source.attributes;
     std::vector<Attribute> attributes;
-    for (const Attribute& attribute : source.attributes)
+    for (const Attribute& attribute : source.attributes) {
+        throw_if_cancelled(execution);
         attributes.push_back(gather(attribute, result.source));
+    }
     return attributes;
 }
 
-Document remove_duplicates(Document document, const JobInputs& inputs, RunningJob& job,
-                           Report& report) {
-    const Flags flags = find_duplicates(document.shape.cloud.points);
+Document remove_duplicates(Document document, const JobInputs& inputs, const Execution& execution,
+                           RunningJob& job, Report& report) {
+    const Flags flags = find_duplicates(document.shape.cloud.points, execution);
     report.duplicates = count(flags);
     if (report.duplicates == 0) return document;
     const bool remove = inputs.duplicates == DuplicatePolicy::Remove;
@@ -83,7 +88,7 @@ Document remove_duplicates(Document document, const JobInputs& inputs, RunningJo
              std::to_string(report.duplicates) +
                  " points repeat the position of an earlier one; they were " +
                  (remove ? "removed." : "kept (duplicates=remove drops them)."));
-    return remove ? without(document, flags) : document;
+    return remove ? without(document, flags, execution) : document;
 }
 
 Document treat_outliers(Document document, const JobInputs& inputs, const Execution& execution,
@@ -99,7 +104,7 @@ Document treat_outliers(Document document, const JobInputs& inputs, const Execut
     if (report.outliers == 0) return document;
     job.warn("outliers-removed",
              std::to_string(report.outliers) + " isolated points were removed.");
-    return without(document, flags);
+    return without(document, flags, execution);
 }
 
 /// Warnings that this step added to a document, told to the job.
@@ -128,8 +133,9 @@ Report start_report(const StatusInfo& job, const Document& document, const std::
 Document apply_policies(Document document, const JobInputs& inputs, const Execution& execution,
                         RunningJob& job, Report& report) {
     const std::size_t known = document.warnings.size();
-    document = remove_duplicates(std::move(document), inputs, job, report);
-    document = treat_outliers(std::move(document), inputs, execution, job, report);
+    document =
+        remove_duplicates(std::move(document), inputs, part_of(execution, 0, 0.4), job, report);
+    document = treat_outliers(std::move(document), inputs, part_of(execution, 0.4, 1), job, report);
     return tell_new_warnings(std::move(document), known, job);
 }
 
@@ -142,7 +148,7 @@ Document carry_attributes(Document document, Computation& result, const JobInput
     PointCloud cloud;
     cloud.points = std::move(*result.points);
     if (inputs.attributes != AttributePolicy::Drop)
-        cloud.attributes = carried(document.shape.cloud, result);
+        cloud.attributes = carried(document.shape.cloud, result, execution);
     apply_normals(cloud, inputs.normals.value_or(NormalPolicy::Keep), execution);
     report.output_points = cloud.size();
     report.output_bounds = bounds_of(cloud.points);

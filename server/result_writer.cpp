@@ -10,6 +10,8 @@
 namespace lpf::server {
 namespace {
 
+constexpr std::size_t kPiece = 8U << 20U;  // bytes between two questions whether to stop
+
 /// auto: the format of the input, but big-endian input comes back in the machine's order.
 FileFormat chosen_format(const JobInputs& inputs, const Document& document) {
     if (inputs.format) return *inputs.format;
@@ -24,14 +26,19 @@ int quantization_bits(const JobInputs& inputs, const Points& points, double mean
     return automatic_quantization_bits((bounds.maximum - bounds.minimum).norm(), mean_spacing);
 }
 
-ResultWriter::ResultWriter(Storage& storage, RunningJob& job, std::string version)
-    : storage_(storage), job_(job), version_(std::move(version)) {
+ResultWriter::ResultWriter(Storage& storage, RunningJob& job, std::string version,
+                           Execution execution)
+    : storage_(storage), job_(job), version_(std::move(version)), execution_(std::move(execution)) {
     outcome_.files_held = FileHold(storage_);
 }
 
 void ResultWriter::store(ResultKind kind, std::string_view type, const std::string& bytes) {
     const auto writer = storage_.blobs().create();
-    writer->write(bytes);
+    for (std::size_t at = 0; at < bytes.size(); at += kPiece) {
+        throw_if_cancelled(execution_);
+        writer->write(std::string_view(bytes).substr(at, kPiece));
+    }
+    throw_if_cancelled(execution_);
     outcome_.results.push_back(
         {kind, std::string(type), bytes.size(), outcome_.files_held.commit(*writer)});
 }
@@ -47,7 +54,7 @@ void ResultWriter::add_points(const Document& document, const JobInputs& inputs,
             quantization_bits(inputs, document.shape.cloud.points, measurements.mean_spacing);
     }
     std::vector<Warning> lost;
-    const std::string bytes = encode(document, options, lost);
+    const std::string bytes = encode(document, options, lost, execution_);
     for (const Warning& warning : lost) job_.warn(warning.code, warning.detail);
     store(ResultKind::Points, media_type(options.format), bytes);
 }
@@ -67,7 +74,7 @@ void ResultWriter::add_fields(const AnalysisResult& analysis) {
     std::vector<Warning> lost;
     const std::string bytes =
         encode(fields_document(analysis),
-               {.format = FileFormat::PlyBinary, .double_positions = true}, lost);
+               {.format = FileFormat::PlyBinary, .double_positions = true}, lost, execution_);
     store(ResultKind::Fields, media_type(FileFormat::PlyBinary), bytes);
 }
 

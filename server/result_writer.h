@@ -4,6 +4,7 @@
 
 #include "api/codec/format.h"
 #include "api/report.h"
+#include "core/base/parallel.h"
 #include "server/running_job.h"
 #include "server/storage.h"
 
@@ -13,7 +14,8 @@ namespace lpf::server {
 /// warning.
 class ResultWriter {
 public:
-    ResultWriter(Storage& storage, RunningJob& job, std::string version);
+    /// @param execution  of the encoding and storing; a stop ends either with Error{Cancelled}
+    ResultWriter(Storage& storage, RunningJob& job, std::string version, Execution execution);
 
     void add_points(const Document& document, const JobInputs& inputs,
                     const Measurements& measurements);
@@ -30,6 +32,7 @@ private:
     Storage& storage_;
     RunningJob& job_;
     std::string version_;
+    Execution execution_;
     JobOutcome outcome_;
 };
 

@@ -17,6 +17,7 @@ constexpr double kDecoded = 3;
 constexpr double kPrepared = 5;
 constexpr double kMeasured = 8;
 constexpr double kComputed = 90;
+constexpr double kWritten = 99;
 
 /// Notes how long each phase took, for the report.
 class PhaseTimes {
@@ -54,7 +55,7 @@ JobOutcome Runner::run(RunningJob& job) const {
     PhaseTimes times;
 
     job.enter_phase("decode", 0);
-    Document document = load_shape(asked.shape);
+    Document document = load_shape(asked.shape, execution(job, 0, kDecoded));
     pass_on_warnings(job, document.warnings);
     Report report = start_report(asked, document, options_.version, options_.threads);
     times.end_of("decode");
@@ -75,10 +76,10 @@ JobOutcome Runner::run(RunningJob& job) const {
     times.end_of("compute");
 
     job.enter_phase("encode", kComputed);
-    ResultWriter writer(storage_, job, options_.version);
+    const Execution writing = execution(job, kComputed, kWritten);
+    ResultWriter writer(storage_, job, options_.version, writing);
     if (result.points) {
-        document = carry_attributes(std::move(document), result, inputs,
-                                    execution(job, kComputed, kComputed), job, report);
+        document = carry_attributes(std::move(document), result, inputs, writing, job, report);
         writer.add_points(document, inputs, report.measurements);
     }
     writer.add_dictionary(result.analysis);
@@ -92,12 +93,12 @@ JobOutcome Runner::run(RunningJob& job) const {
     return writer.take_outcome();
 }
 
-Document Runner::load_shape(const std::string& shape_id) const {
+Document Runner::load_shape(const std::string& shape_id, const Execution& execution) const {
     const auto shape = storage_.jobs().find_shape(shape_id);
     if (!shape)
         throw ProblemException(ProblemCode::ShapeNotFound, "The shape of this job was deleted.");
     const MappedFile file(storage_.blobs().local_file(shape->sha256));
-    return decode(file.bytes(), decode_limits(options_.limits));
+    return decode(file.bytes(), decode_limits(options_.limits), execution);
 }
 
 Dictionary Runner::load_dictionary(const std::string& dictionary_id) const {

@@ -28,7 +28,8 @@ public:
     [[nodiscard]] JobOutcome run(RunningJob& job) const;
 
 private:
-    [[nodiscard]] Document load_shape(const std::string& shape_id) const;
+    [[nodiscard]] Document load_shape(const std::string& shape_id,
+                                      const Execution& execution) const;
     [[nodiscard]] Dictionary load_dictionary(const std::string& dictionary_id) const;
     [[nodiscard]] ResolvedParameters resolve(RunningJob& job, const Document& document,
                                              const Measurements& measurements) const;

@@ -1,16 +1,13 @@
-// Decodes one Draco stream from standard input into a binary PLY on standard output, under limits
-// that it sets on itself. Started by the server for every Draco upload.
+// Decodes one Draco stream from standard input into a binary PLY on standard output, or the other
+// way round, confined by limits that it sets on itself. Started by the server for every Draco
+// upload and for large Draco results.
 
 #include <sys/mman.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <csignal>
 #include <cstdint>
-#include <cstdio>
 #include <exception>
 #include <new>
 #include <span>
@@ -21,47 +18,33 @@
 #include "api/codec/draco.h"
 #include "api/codec/draco_child.h"
 #include "api/codec/ply.h"
+#include "api/codec/sandbox.h"
 #include "api/codec/text.h"
 
 namespace {
 
-struct Arguments {
-    lpf::DecodeLimits limits;
-    std::uint64_t memory_bytes = 0;
+constexpr const char* kUsage =
+    "usage: lpf-decode decode MEMORY_BYTES CPU_SECONDS WALL_SECONDS MAX_POINTS MAX_FACES "
+    "< in.drc > out.ply, or lpf-decode encode MEMORY_BYTES CPU_SECONDS WALL_SECONDS "
+    "QUANTIZATION_BITS DOUBLE_POSITIONS DOUBLE_SOURCE < in.ply > out.drc";
+
+/// What stands on the command line.
+class Arguments {
+public:
+    Arguments(int argc, char** argv) : words_(argv + 1, argv + argc) {}
+
+    [[nodiscard]] bool ask_to(std::string_view what, std::size_t count) const {
+        return words_.size() == count && words_[0] == what;
+    }
+    [[nodiscard]] std::uint64_t number(std::size_t i) const { return std::stoull(words_.at(i)); }
+
+    [[nodiscard]] lpf::SandboxLimits sandbox() const {
+        return {number(1), static_cast<unsigned>(number(2)), static_cast<unsigned>(number(3))};
+    }
+
+private:
+    std::vector<std::string> words_;
 };
-
-Arguments parse_arguments(int argc, char** argv) {
-    if (argc != 6) {
-        lpf::fail(lpf::ErrorCode::Internal,
-                  "usage: lpf-decode MAX_POINTS MAX_FACES MEMORY_BYTES CPU_SECONDS WALL_SECONDS "
-                  "< in.drc > out.ply");
-    }
-    Arguments arguments;
-    arguments.limits.max_points = std::stoull(argv[1]);
-    arguments.limits.max_faces = std::stoull(argv[2]);
-    arguments.memory_bytes = std::stoull(argv[3]);
-    arguments.limits.helper_cpu_seconds = static_cast<unsigned>(std::stoul(argv[4]));
-    arguments.limits.helper_wall_seconds = static_cast<unsigned>(std::stoul(argv[5]));
-    return arguments;
-}
-
-void limit(int resource, std::uint64_t value) {
-    const rlimit bound{value, value};
-    if (setrlimit(static_cast<__rlimit_resource>(resource), &bound) != 0) {
-        lpf::fail(lpf::ErrorCode::Internal, "lpf-decode: cannot limit resource ", resource);
-    }
-}
-
-void limit_this_process(const Arguments& arguments) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_CPU, arguments.limits.helper_cpu_seconds);
-    alarm(arguments.limits.helper_wall_seconds);
-    // Sanitizers reserve terabytes of address space for themselves.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    limit(RLIMIT_AS, arguments.memory_bytes);
-#endif
-}
 
 std::span<const std::byte> map_standard_input() {
     struct stat status {};
@@ -83,18 +66,44 @@ void write_all(int descriptor, std::string_view bytes) {
     }
 }
 
-void decode(const Arguments& arguments) {
-    const lpf::Document document =
-        lpf::decode_draco_unprotected(map_standard_input(), arguments.limits);
-    lpf::EncodeOptions options;
-    options.double_positions = document.double_positions;
+void decode(std::uint64_t max_points, std::uint64_t max_faces) {
+    const lpf::DecodeLimits limits{
+        .max_points = max_points, .max_faces = max_faces, .decode_helper = {}};
+    const lpf::Document document = lpf::decode_draco_unprotected(map_standard_input(), limits);
+    const lpf::EncodeOptions options{.double_positions = document.double_positions,
+                                     .encode_helper = {}};
     std::vector<lpf::Warning> lost;
     write_all(STDOUT_FILENO, lpf::encode_ply(document, options, lost));
 }
 
+void encode(const lpf::EncodeOptions& options, bool double_source) {
+    const lpf::DecodeLimits any_size{
+        .max_points = UINT32_MAX, .max_faces = UINT32_MAX, .decode_helper = {}};
+    lpf::Document document = lpf::decode_ply(map_standard_input(), any_size);
+    document.double_positions = double_source;
+    std::vector<lpf::Warning> lost;
+    write_all(STDOUT_FILENO, lpf::encode_draco_here(document, options, lost));
+    for (const lpf::Warning& warning : lost) {
+        write_all(STDERR_FILENO, lpf::message_of(warning.code, "\t", warning.detail, "\n"));
+    }
+}
+
+void work(const Arguments& arguments) {
+    const bool decodes = arguments.ask_to("decode", 6);
+    if (!decodes && !arguments.ask_to("encode", 7)) {
+        lpf::fail(lpf::ErrorCode::Internal, kUsage);
+    }
+    lpf::confine_this_process(arguments.sandbox());
+    if (decodes) return decode(arguments.number(4), arguments.number(5));
+    encode({.format = lpf::FileFormat::Draco,
+            .quantization_bits = static_cast<int>(arguments.number(4)),
+            .double_positions = arguments.number(5) != 0,
+            .encode_helper = {}},
+           arguments.number(6) != 0);
+}
+
 int report(lpf::ErrorCode code, std::string_view message) {
-    std::fprintf(stderr, "%d\n%.*s", static_cast<int>(code), static_cast<int>(message.size()),
-                 message.data());
+    write_all(STDERR_FILENO, lpf::message_of(static_cast<int>(code), "\n", message));
     return lpf::kDecodeHelperRefused;
 }
 
@@ -102,9 +111,7 @@ int report(lpf::ErrorCode code, std::string_view message) {
 
 int main(int argc, char** argv) {
     try {
-        const Arguments arguments = parse_arguments(argc, argv);
-        limit_this_process(arguments);
-        decode(arguments);
+        work(Arguments(argc, argv));
         return 0;
     } catch (const lpf::Error& error) {
         return report(error.code(), error.what());

@@ -299,7 +299,8 @@ Document decode_draco_unprotected(std::span<const std::byte> bytes, const Decode
     return document;
 }
 
-Document decode_draco(std::span<const std::byte> bytes, const DecodeLimits& limits) {
+Document decode_draco(std::span<const std::byte> bytes, const DecodeLimits& limits,
+                      const Execution& execution) {
     const DracoClaim claim = read_draco_claim(bytes);
     check_draco_claim(claim, bytes.size(), limits);
     if (limits.decode_helper.empty() && !claim.is_current()) {
@@ -308,9 +309,10 @@ Document decode_draco(std::span<const std::byte> bytes, const DecodeLimits& limi
              " is too old to be decoded without the helper program lpf-decode; "
              "encode the shape again with a current Draco release");
     }
-    Document document = limits.decode_helper.empty() ? decode_draco_unprotected(bytes, limits)
-                                                     : decode_draco_in_child(bytes, claim, limits);
-    drop_non_finite_points(document);
+    Document document = limits.decode_helper.empty()
+                            ? decode_draco_unprotected(bytes, limits)
+                            : decode_draco_in_child(bytes, claim, limits, execution);
+    drop_non_finite_points(document, execution);
     return document;
 }
 

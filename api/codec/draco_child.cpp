@@ -1,136 +1,57 @@
 #include "api/codec/draco_child.h"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/mman.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <charconv>
 #include <csignal>
-#include <cstring>
+#include <span>
 #include <string>
-#include <utility>
-#include <vector>
+#include <string_view>
 
+#include "api/codec/helper_process.h"
 #include "api/codec/ply.h"
+#include "api/codec/ply_columns.h"
 #include "api/codec/text.h"
 
 namespace lpf {
 namespace {
 
-/// A file without a name that lives in memory until it is closed.
-class MemoryFile {
-public:
-    MemoryFile() : descriptor_(memfd_create("lpf-decode", MFD_CLOEXEC)) {
-        if (descriptor_ < 0) fail(ErrorCode::Internal, "memfd_create: ", std::strerror(errno));
-    }
-    ~MemoryFile() {
-        if (mapping_ != nullptr) munmap(mapping_, size_);
-        close(descriptor_);
-    }
-    MemoryFile(const MemoryFile&) = delete;
-    MemoryFile& operator=(const MemoryFile&) = delete;
+constexpr std::uint64_t kProgramBytes = 512ULL << 20;
 
-    [[nodiscard]] int descriptor() const { return descriptor_; }
+/// Of encoding: the file, its columns, their copies in Draco and the stream.
+constexpr std::uint64_t kBytesPerInputByte = 16;
+constexpr unsigned kEncodeSeconds = 600;
 
-    void write_all(std::span<const std::byte> bytes) {
-        while (!bytes.empty()) {
-            const ssize_t written = write(descriptor_, bytes.data(), bytes.size());
-            if (written < 0 && errno == EINTR) continue;
-            if (written <= 0) fail(ErrorCode::OutOfMemory, "memfd: ", std::strerror(errno));
-            bytes = bytes.subspan(static_cast<std::size_t>(written));
-        }
-        lseek(descriptor_, 0, SEEK_SET);
+std::string_view text_of(std::span<const std::byte> bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+/// What the helper wrote: a code, a tab and a detail in every line.
+std::vector<Warning> warnings_in(std::string_view text) {
+    std::vector<Warning> warnings;
+    while (!text.empty()) {
+        const std::string_view line = text.substr(0, text.find('\n'));
+        text.remove_prefix(std::min(line.size() + 1, text.size()));
+        const std::size_t tab = std::min(line.find('\t'), line.size());
+        const std::size_t after = std::min(tab + 1, line.size());
+        warnings.push_back({std::string(line.substr(0, tab)), std::string(line.substr(after))});
     }
-
-    /// The whole content; valid as long as this object.
-    std::span<const std::byte> map() {
-        struct stat status {};
-        if (fstat(descriptor_, &status) != 0 || status.st_size == 0) return {};
-        size_ = static_cast<std::size_t>(status.st_size);
-        void* const mapping = mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, descriptor_, 0);
-        if (mapping == MAP_FAILED) fail(ErrorCode::OutOfMemory, "mmap: ", std::strerror(errno));
-        mapping_ = mapping;
-        return {static_cast<const std::byte*>(mapping_), size_};
-    }
-
-private:
-    int descriptor_;
-    void* mapping_ = nullptr;
-    std::size_t size_ = 0;
-};
-
-/// What the helper is told to pass on to the three standard streams, and nothing else.
-class SpawnActions {
-public:
-    SpawnActions(const MemoryFile& in, const MemoryFile& out, const MemoryFile& error) {
-        posix_spawn_file_actions_init(&actions_);
-        posix_spawn_file_actions_adddup2(&actions_, in.descriptor(), STDIN_FILENO);
-        posix_spawn_file_actions_adddup2(&actions_, out.descriptor(), STDOUT_FILENO);
-        posix_spawn_file_actions_adddup2(&actions_, error.descriptor(), STDERR_FILENO);
-        posix_spawn_file_actions_addclosefrom_np(&actions_, 3);
-        posix_spawnattr_init(&attributes_);
-        // Signals that the caller blocks or ignores must end the helper nevertheless.
-        sigset_t none;
-        sigset_t all;
-        sigemptyset(&none);
-        sigfillset(&all);
-        posix_spawnattr_setsigmask(&attributes_, &none);
-        posix_spawnattr_setsigdefault(&attributes_, &all);
-        posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-    }
-    ~SpawnActions() {
-        posix_spawn_file_actions_destroy(&actions_);
-        posix_spawnattr_destroy(&attributes_);
-    }
-    SpawnActions(const SpawnActions&) = delete;
-    SpawnActions& operator=(const SpawnActions&) = delete;
-
-    pid_t start(std::vector<std::string> arguments) {
-        std::vector<char*> argv;
-        for (std::string& argument : arguments) argv.push_back(argument.data());
-        argv.push_back(nullptr);
-        std::array<char*, 1> environment{nullptr};
-        pid_t child = 0;
-        const int error =
-            posix_spawn(&child, argv[0], &actions_, &attributes_, argv.data(), environment.data());
-        if (error != 0) {
-            fail(ErrorCode::Internal, "cannot start ", arguments[0], ": ", std::strerror(error));
-        }
-        return child;
-    }
-
-private:
-    posix_spawn_file_actions_t actions_{};
-    posix_spawnattr_t attributes_{};
-};
+    return warnings;
+}
 
 /// Room for what the stream claims, several times over, and never more than the ceiling.
 std::uint64_t memory_for(const DracoClaim& claim, std::uint64_t file_bytes,
                          const DecodeLimits& limits) {
-    constexpr std::uint64_t kProgram = 512ULL << 20;
     constexpr std::uint64_t kPerPoint = 1024;
     constexpr std::uint64_t kPerFace = 1024;
     const std::uint64_t wanted =
-        kProgram + 8 * file_bytes + kPerPoint * claim.points + kPerFace * claim.faces;
+        kProgramBytes + 8 * file_bytes + kPerPoint * claim.points + kPerFace * claim.faces;
     return std::min(wanted, limits.helper_memory_bytes);
 }
 
-int wait_for(pid_t child) {
-    int status = 0;
-    while (waitpid(child, &status, 0) < 0) {
-        if (errno != EINTR) fail(ErrorCode::Internal, "waitpid: ", std::strerror(errno));
-    }
-    return status;
-}
-
 [[noreturn]] void throw_refusal(std::span<const std::byte> report, std::uint64_t memory) {
-    const std::string_view text(reinterpret_cast<const char*>(report.data()), report.size());
+    const std::string_view text = text_of(report);
     const std::size_t line_end = text.find('\n');
     int code = 0;
     (void)std::from_chars(text.data(), text.data() + std::min(line_end, text.size()), code);
@@ -157,7 +78,7 @@ void throw_unless_done(int status, MemoryFile& report, std::uint64_t memory,
         fail(ErrorCode::Internal, "cannot run the decode helper ", limits.decode_helper);
     }
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-    if (signal == SIGXCPU || signal == SIGALRM || signal == SIGKILL) {
+    if (signal == SIGXCPU || signal == SIGALRM || signal == SIGKILL || signal == SIGXFSZ) {
         fail(ErrorCode::LimitExceeded,
              "decoding the Draco stream was stopped at its limits: ", limits.helper_cpu_seconds,
              " s of processor time, ", limits.helper_wall_seconds, " s in all, ", memory >> 20,
@@ -168,22 +89,52 @@ void throw_unless_done(int status, MemoryFile& report, std::uint64_t memory,
 
 }  // namespace
 
-Document decode_draco_in_child(std::span<const std::byte> bytes, const DracoClaim& claim,
-                               const DecodeLimits& limits) {
-    MemoryFile input;
-    MemoryFile output;
-    MemoryFile report;
-    input.write_all(bytes);
+void decode_draco_to_ply(std::span<const std::byte> bytes, const DracoClaim& claim,
+                         const DecodeLimits& limits, HelperStreams& streams,
+                         const Execution& execution) {
+    streams.in.write_all(bytes, execution);
     const std::uint64_t memory = memory_for(claim, bytes.size(), limits);
-    const pid_t child = SpawnActions(input, output, report)
-                            .start({limits.decode_helper, std::to_string(limits.max_points),
-                                    std::to_string(limits.max_faces), std::to_string(memory),
-                                    std::to_string(limits.helper_cpu_seconds),
-                                    std::to_string(limits.helper_wall_seconds)});
-    throw_unless_done(wait_for(child), report, memory, limits);
-    Document document = decode_ply(output.map(), limits);
+    const int status = run_helper(
+        {limits.decode_helper, "decode", std::to_string(memory),
+         std::to_string(limits.helper_cpu_seconds), std::to_string(limits.helper_wall_seconds),
+         std::to_string(limits.max_points), std::to_string(limits.max_faces)},
+        streams, kDecodePhase, limits.helper_wall_seconds, execution);
+    throw_unless_done(status, streams.error, memory, limits);
+}
+
+Document decode_draco_in_child(std::span<const std::byte> bytes, const DracoClaim& claim,
+                               const DecodeLimits& limits, const Execution& execution) {
+    HelperStreams streams;
+    decode_draco_to_ply(bytes, claim, limits, streams, execution);
+    Document document = decode_ply(streams.out.map(), limits, execution);
     document.format = FileFormat::Draco;
     return document;
+}
+
+std::string encode_draco_in_child(const Document& document, const EncodeOptions& options,
+                                  std::vector<Warning>& lost, const Execution& execution) {
+    HelperStreams streams;
+    std::size_t bytes = 0;
+    {
+        EncodeOptions exact;
+        exact.comments = options.comments;
+        exact.double_positions = true;
+        const std::string file = encode_ply(document, exact, lost, part_of(execution, 0, 0.5));
+        streams.in.write_all(std::as_bytes(std::span(file)), execution);
+        bytes = file.size();
+    }
+    const int status = run_helper(
+        {options.encode_helper, "encode",
+         std::to_string(kProgramBytes + kBytesPerInputByte * bytes), std::to_string(kEncodeSeconds),
+         std::to_string(kEncodeSeconds), std::to_string(options.quantization_bits),
+         options.double_positions ? "1" : "0", document.double_positions ? "1" : "0"},
+        streams, kEncodePhase, kEncodeSeconds, part_of(execution, 0.5, 1));
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+        fail(ErrorCode::Internal, "encoding Draco failed: ", text_of(streams.error.map()));
+    }
+    for (const Warning& warning : warnings_in(text_of(streams.error.map())))
+        lost.push_back(warning);
+    return std::string(text_of(streams.out.map()));
 }
 
 }  // namespace lpf

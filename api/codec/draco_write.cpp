@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "api/codec/draco.h"
+#include "api/codec/draco_child.h"
 #include "api/codec/draco_columns.h"
 #include "api/codec/ply_header.h"
 #include "api/codec/positions.h"
@@ -19,6 +20,10 @@ namespace lpf {
 namespace {
 
 using Columns = std::vector<const Attribute*>;
+
+/// Points and faces that are encoded within a tenth of a second, so that nobody need be able to
+/// stop it.
+constexpr std::size_t kQuicklyEncoded = 100'000;
 
 draco::DataType draco_type(ScalarType type) {
     switch (type) {
@@ -54,13 +59,18 @@ Attribute widened(const Attribute& column) {
     return wide;
 }
 
+/// Draco's decoder refuses sequential meshes with more points than the faces have corners.
+bool fits_draco_mesh(const Shape& shape) {
+    return shape.is_mesh() && shape.size() <= 3 * static_cast<std::size_t>(shape.triangles.cols());
+}
+
 class DracoWriter {
 public:
     DracoWriter(const Document& document, const EncodeOptions& options, std::vector<Warning>& lost)
         : document_(document),
           options_(options),
           lost_(lost),
-          mesh_(document.shape.is_mesh() ? std::make_unique<draco::Mesh>() : nullptr),
+          mesh_(fits_draco_mesh(document.shape) ? std::make_unique<draco::Mesh>() : nullptr),
           cloud_(mesh_ ? nullptr : std::make_unique<draco::PointCloud>()),
           geometry_(mesh_ ? *mesh_ : *cloud_),
           points_(static_cast<std::uint32_t>(document.shape.size())) {}
@@ -259,7 +269,11 @@ void DracoWriter::add_faces() {
 }
 
 void DracoWriter::report_what_draco_has_no_place_for() {
-    if (!document_.polygons.empty()) {
+    if (document_.shape.is_mesh() && !mesh_) {
+        lose("faces-dropped",
+             message_of("a Draco mesh cannot hold the ", points_, " points with only ",
+                        document_.face_count(), " faces; the points are written without them"));
+    } else if (!document_.polygons.empty()) {
         lose("faces-triangulated",
              message_of(document_.polygons.size(), " polygons are written as ",
                         document_.shape.triangles.cols(), " triangles"));
@@ -293,9 +307,19 @@ std::string DracoWriter::encoded() {
 
 }  // namespace
 
-std::string encode_draco(const Document& document, const EncodeOptions& options,
-                         std::vector<Warning>& lost) {
+std::string encode_draco_here(const Document& document, const EncodeOptions& options,
+                              std::vector<Warning>& lost) {
     return DracoWriter(document, options, lost).write();
+}
+
+std::string encode_draco(const Document& document, const EncodeOptions& options,
+                         std::vector<Warning>& lost, const Execution& execution) {
+    throw_if_cancelled(execution);
+    const std::size_t size = document.shape.size() + document.face_count();
+    if (size <= kQuicklyEncoded || options.encode_helper.empty()) {
+        return encode_draco_here(document, options, lost);
+    }
+    return encode_draco_in_child(document, options, lost, execution);
 }
 
 }  // namespace lpf

@@ -22,12 +22,16 @@ std::vector<std::uint32_t> finite_points(const Points& points) {
     return kept;
 }
 
-void keep_points(PointCloud& cloud, const std::vector<std::uint32_t>& kept) {
+void keep_points(PointCloud& cloud, const std::vector<std::uint32_t>& kept,
+                 const Execution& execution) {
     for (std::size_t i = 0; i < kept.size(); ++i) {
         cloud.points.col(static_cast<Eigen::Index>(i)) = cloud.points.col(kept[i]).eval();
     }
     cloud.points.conservativeResize(3, static_cast<Eigen::Index>(kept.size()));
-    for (Attribute& attribute : cloud.attributes) attribute = gather(attribute, kept);
+    for (Attribute& attribute : cloud.attributes) {
+        throw_if_cancelled(execution);
+        attribute = gather(attribute, kept);
+    }
 }
 
 /// Renumbers the vertices; returns the faces that lost none.
@@ -66,6 +70,14 @@ std::vector<std::uint32_t> renumber_polygons(Polygons& polygons,
     return kept;
 }
 
+/// The faces that were no triangles may be among those that were lost.
+bool only_triangles(const Polygons& polygons) {
+    for (std::size_t f = 0; f < polygons.size(); ++f) {
+        if (polygons.offsets[f + 1] - polygons.offsets[f] != 3) return false;
+    }
+    return true;
+}
+
 void keep_faces(Document& document, const std::vector<std::uint32_t>& new_number) {
     const std::size_t before = document.face_count();
     std::vector<std::uint32_t> kept;
@@ -74,6 +86,7 @@ void keep_faces(Document& document, const std::vector<std::uint32_t>& new_number
     } else {
         kept = renumber_polygons(document.polygons, new_number);
         document.shape.triangles = fans_of(document.polygons, kDropped);
+        if (only_triangles(document.polygons)) document.polygons = {};
     }
     if (kept.size() == before) return;
     for (Attribute& attribute : document.face_attributes) attribute = gather(attribute, kept);
@@ -93,16 +106,29 @@ void drop_elements_with_point_numbers(Document& document) {
 
 }  // namespace
 
+void check_triangle_count(std::uint64_t count, std::uint64_t max_faces) {
+    if (count <= max_faces) return;
+    fail(ErrorCode::LimitExceeded, "the polygons make ", count, " triangles; the limit is ",
+         max_faces);
+}
+
+Warning dropped_points_warning(std::uint64_t dropped, std::uint64_t all) {
+    if (dropped == all) {
+        malformed("all ", all,
+                  " points have a NaN or infinite coordinate; at least one must be finite");
+    }
+    return {"non-finite-points-dropped",
+            message_of(dropped, " of ", all,
+                       " points have a NaN or infinite coordinate and were left out")};
+}
+
 Triangles fans_of(const Polygons& polygons, std::uint64_t max_faces) {
     std::uint64_t count = 0;
     for (std::size_t f = 0; f < polygons.size(); ++f) {
         const std::uint64_t corners = polygons.offsets[f + 1] - polygons.offsets[f];
         if (corners > 2) count += corners - 2;
     }
-    if (count > max_faces) {
-        fail(ErrorCode::LimitExceeded, "the polygons make ", count, " triangles; the limit is ",
-             max_faces);
-    }
+    check_triangle_count(count, max_faces);
     Triangles triangles(3, static_cast<Eigen::Index>(count));
     Eigen::Index next = 0;
     for (std::size_t f = 0; f < polygons.size(); ++f) {
@@ -115,24 +141,20 @@ Triangles fans_of(const Polygons& polygons, std::uint64_t max_faces) {
     return triangles;
 }
 
-void drop_non_finite_points(Document& document) {
+void drop_non_finite_points(Document& document, const Execution& execution) {
     const std::size_t before = document.shape.size();
     if (document.shape.cloud.points.allFinite()) return;
     const std::vector<std::uint32_t> kept = finite_points(document.shape.cloud.points);
-    if (kept.empty()) {
-        malformed("all ", before,
-                  " points have a NaN or infinite coordinate; at least one must be finite");
-    }
+    const Warning warning = dropped_points_warning(before - kept.size(), before);
     std::vector<std::uint32_t> new_number(before, kDropped);
     for (std::size_t i = 0; i < kept.size(); ++i) {
         new_number[kept[i]] = static_cast<std::uint32_t>(i);
     }
     document.dropped_points = before - kept.size();
-    document.warnings.push_back(
-        {"non-finite-points-dropped",
-         message_of(document.dropped_points, " of ", before,
-                    " points have a NaN or infinite coordinate and were left out")});
-    keep_points(document.shape.cloud, kept);
+    document.warnings.push_back(warning);
+    throw_if_cancelled(execution);
+    keep_points(document.shape.cloud, kept, execution);
+    throw_if_cancelled(execution);
     keep_faces(document, new_number);
     drop_elements_with_point_numbers(document);
 }

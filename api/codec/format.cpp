@@ -66,24 +66,26 @@ std::optional<FileFormat> sniff(std::span<const std::byte> bytes) {
     return std::nullopt;
 }
 
-Document decode(std::span<const std::byte> bytes, const DecodeLimits& limits) {
-    if (sniff(bytes) == FileFormat::Draco) return decode_draco(bytes, limits);
+Document decode(std::span<const std::byte> bytes, const DecodeLimits& limits,
+                const Execution& execution) {
+    if (sniff(bytes) == FileFormat::Draco) return decode_draco(bytes, limits, execution);
     // Also what only begins like a PLY goes there, because its reader can say what is wrong.
-    if (begins_like_ply(bytes)) return decode_ply(bytes, limits);
+    if (begins_like_ply(bytes)) return decode_ply(bytes, limits, execution);
     fail(ErrorCode::UnsupportedFormat, "the file is neither PLY nor Draco; it looks like ",
          describe_foreign(bytes));
 }
 
 std::string encode(const Document& document, const EncodeOptions& options,
-                   std::vector<Warning>& lost) {
+                   std::vector<Warning>& lost, const Execution& execution) {
     if (options.quantization_bits < 0 || options.quantization_bits > 30) {
         throw Error(ErrorCode::InvalidParameter,
                     message_of("quantizationBits is ", options.quantization_bits,
                                "; it must be 1 to 30, or 0 for exact coordinates"),
                     "quantizationBits");
     }
-    if (options.format == FileFormat::Draco) return encode_draco(document, options, lost);
-    return encode_ply(document, options, lost);
+    if (options.format == FileFormat::Draco)
+        return encode_draco(document, options, lost, execution);
+    return encode_ply(document, options, lost, execution);
 }
 
 std::string_view media_type(FileFormat format) { return facts_of(format).media_type; }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "api/codec/document.h"
+#include "core/base/parallel.h"
 
 namespace lpf {
 
@@ -33,6 +34,10 @@ struct EncodeOptions {
     int quantization_bits = 0;               ///< Draco positions: 1 to 30 bits; 0 = exact
     bool double_positions = false;           ///< float64 coordinates, else float32
     std::vector<std::string> comments = {};  ///< lines put before the document's own comments
+
+    /// Program that encodes large Draco results (the same as decodes them), so that they can be
+    /// stopped. Empty: encode in this process.
+    std::string encode_helper = DecodeLimits::default_decode_helper();
 };
 
 /// The format by content alone, whatever the file was called; nothing if it is none that is read
@@ -43,14 +48,16 @@ struct EncodeOptions {
 /// infinite coordinate are dropped with a warning. A file without any point is a document with 0.
 /// @throws Error{UnsupportedFormat} for other content, naming what it looks like
 /// @throws Error{MalformedFile} with line or byte offset; also if no point has finite coordinates
-/// @throws Error{LimitExceeded} naming the limit
-[[nodiscard]] Document decode(std::span<const std::byte> bytes, const DecodeLimits& limits = {});
+/// @throws Error{LimitExceeded} naming the limit; Error{Cancelled} at once when the stop token
+/// fires
+[[nodiscard]] Document decode(std::span<const std::byte> bytes, const DecodeLimits& limits = {},
+                              const Execution& execution = {});
 
 /// Writes a document. Points and faces keep their order in every format.
 /// @param lost  receives a warning for everything the format cannot hold
-/// @throws Error{InvalidParameter, "quantizationBits"} outside 0 to 30
+/// @throws Error{InvalidParameter, "quantizationBits"} outside 0 to 30; Error{Cancelled}
 [[nodiscard]] std::string encode(const Document& document, const EncodeOptions& options,
-                                 std::vector<Warning>& lost);
+                                 std::vector<Warning>& lost, const Execution& execution = {});
 
 /// "application/ply" for all PLY kinds and "application/vnd.draco": no type is registered for
 /// either format, so these are names of this project. Uploads are told by content, never by their

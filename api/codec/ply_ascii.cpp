@@ -16,17 +16,24 @@ bool is_line_end(char c) { return c == '\n' || c == '\r'; }
 
 class AsciiReader {
 public:
-    AsciiReader(const PlyElement& element, std::span<const std::byte> file, std::size_t at)
-        : begin_(reinterpret_cast<const char*>(file.data())),
-          end_(begin_ + file.size()),
-          at_(begin_ + at),
-          table_(table_for(element)) {}
+    AsciiReader(const PlyElement& element, std::size_t rows, const PlyPlace& place,
+                const Execution& execution)
+        : begin_(reinterpret_cast<const char*>(place.file.data())),
+          end_(begin_ + place.file.size()),
+          at_(begin_ + place.at),
+          first_row_(place.row),
+          element_rows_(element.count),
+          execution_(execution),
+          table_(table_for(element, rows)) {}
 
     PlyTable read() {
         for (PlyColumn& column : table_.columns) {
             if (!column.property().is_list) column.set_rows(table_.rows);
         }
-        for (row_ = 0; row_ < table_.rows; ++row_) read_row();
+        parallel_for(on_one_thread(execution_), kDecodePhase, "rows", table_.rows, kRowsPerStep,
+                     [&](std::size_t begin, std::size_t end, std::size_t) {
+                         for (row_ = begin; row_ < end; ++row_) read_row();
+                     });
         return std::move(table_);
     }
 
@@ -49,6 +56,9 @@ private:
     const char* begin_;
     const char* end_;
     const char* at_;
+    std::size_t first_row_;
+    std::uint64_t element_rows_;
+    const Execution& execution_;
     PlyTable table_;
     std::size_t row_ = 0;
 };
@@ -64,8 +74,8 @@ std::size_t AsciiReader::line_number() const {
 
 template <typename... Parts>
 void AsciiReader::wrong(const Parts&... parts) const {
-    malformed("line ", line_number(), " (row ", row_, " of ", table_.rows, " of element ",
-              quoted(table_.name), "): ", parts...);
+    malformed("line ", line_number(), " (row ", first_row_ + row_, " of ", element_rows_,
+              " of element ", quoted(table_.name), "): ", parts...);
 }
 
 void AsciiReader::read_row() {
@@ -120,6 +130,7 @@ void AsciiReader::read_list(PlyColumn& column) {
         fail(ErrorCode::LimitExceeded, "line ", line_number(), ": the list ", quoted(property.name),
              " has ", length, " values; the limit is ", kMaxPlyListLength);
     }
+    if (length >= kLongList) throw_if_cancelled(execution_);
     at_ = from;
     std::array<std::byte, 8> count{};
     read_value(column, property.count_type, count.data());
@@ -138,11 +149,12 @@ void AsciiReader::read_list(PlyColumn& column) {
 
 }  // namespace
 
-PlyTable read_ascii_rows(const PlyElement& element, std::span<const std::byte> file,
-                         std::size_t& at) {
-    AsciiReader reader(element, file, at);
+PlyTable read_ascii_rows(const PlyElement& element, std::size_t rows, PlyPlace& place,
+                         const Execution& execution) {
+    AsciiReader reader(element, rows, place, execution);
     PlyTable table = reader.read();
-    at = reader.at();
+    place.at = reader.at();
+    place.row += rows;
     return table;
 }
 

@@ -16,9 +16,15 @@ static_assert(std::endian::native == std::endian::little,
 
 class BinaryReader {
 public:
-    BinaryReader(const PlyElement& element, std::span<const std::byte> file, std::size_t at,
-                 bool big_endian)
-        : file_(file), at_(at), big_endian_(big_endian), table_(table_for(element)) {}
+    BinaryReader(const PlyElement& element, std::size_t rows, const PlyPlace& place,
+                 bool big_endian, const Execution& execution)
+        : file_(place.file),
+          at_(place.at),
+          first_row_(place.row),
+          element_rows_(element.count),
+          big_endian_(big_endian),
+          execution_(execution),
+          table_(table_for(element, rows)) {}
 
     PlyTable read() {
         const bool has_list =
@@ -42,6 +48,7 @@ public:
 private:
     void read_blocks();
     void read_row_by_row();
+    void read_row(std::size_t row);
     void read_list(PlyColumn& column, std::size_t row);
     [[nodiscard]] std::int64_t read_integer(ScalarType type, const std::byte* source) const;
     std::uint64_t read_count(const PlyColumn& column, std::size_t row);
@@ -49,15 +56,18 @@ private:
 
     std::span<const std::byte> file_;
     std::size_t at_;
+    std::size_t first_row_;
+    std::uint64_t element_rows_;
     bool big_endian_;
+    const Execution& execution_;
     PlyTable table_;
 };
 
 /// The next `size` bytes of the file.
 const std::byte* BinaryReader::take(std::size_t size, std::size_t row, const PlyColumn& column) {
     if (file_.size() - at_ < size) {
-        malformed("the file ends at byte ", file_.size(), " inside row ", row, " of ", table_.rows,
-                  " of element ", quoted(table_.name), ", property ",
+        malformed("the file ends at byte ", file_.size(), " inside row ", first_row_ + row, " of ",
+                  element_rows_, " of element ", quoted(table_.name), ", property ",
                   quoted(column.property().name), ", which needs ", size, " bytes at byte ", at_);
     }
     const std::byte* bytes = file_.data() + at_;
@@ -77,16 +87,21 @@ void BinaryReader::read_blocks() {
                   " bytes are left; the file is truncated");
     }
     const std::byte* first = file_.data() + at_;
-    for (PlyColumn& column : table_.columns) column.set_rows(table_.rows);
-    for (std::size_t row = 0; row < table_.rows; row += kRowsPerBlock) {
-        const std::size_t n = std::min(kRowsPerBlock, table_.rows - row);
+    for (PlyColumn& column : table_.columns) {
+        column.set_rows(table_.rows);
+        throw_if_cancelled(execution_);
+    }
+    const auto copy_block = [&](std::size_t row, std::size_t end, std::size_t) {
         const std::byte* source = first + row * row_size;
         for (PlyColumn& column : table_.columns) {
             const std::size_t size = size_of(column.property().type);
-            copy_strided(size, n, source, row_size, column.data().data() + row * size, size);
+            copy_strided(size, end - row, source, row_size, column.data().data() + row * size,
+                         size);
             source += size;
         }
-    }
+    };
+    parallel_for(on_one_thread(execution_), kDecodePhase, "rows", table_.rows, kRowsPerBlock,
+                 copy_block);
     at_ += table_.rows * row_size;
 }
 
@@ -94,16 +109,21 @@ void BinaryReader::read_row_by_row() {
     for (PlyColumn& column : table_.columns) {
         if (!column.property().is_list) column.set_rows(table_.rows);
     }
-    for (std::size_t row = 0; row < table_.rows; ++row) {
-        for (PlyColumn& column : table_.columns) {
-            if (column.property().is_list) {
-                read_list(column, row);
-                continue;
-            }
-            const std::size_t size = size_of(column.property().type);
-            const std::byte* value = take(size, row, column);
-            copy_strided(size, 1, value, size, column.data().data() + row * size, size);
+    parallel_for(on_one_thread(execution_), kDecodePhase, "rows", table_.rows, kRowsPerStep,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                     for (std::size_t row = begin; row < end; ++row) read_row(row);
+                 });
+}
+
+void BinaryReader::read_row(std::size_t row) {
+    for (PlyColumn& column : table_.columns) {
+        if (column.property().is_list) {
+            read_list(column, row);
+            continue;
         }
+        const std::size_t size = size_of(column.property().type);
+        const std::byte* value = take(size, row, column);
+        copy_strided(size, 1, value, size, column.data().data() + row * size, size);
     }
 }
 
@@ -111,6 +131,7 @@ void BinaryReader::read_list(PlyColumn& column, std::size_t row) {
     const std::uint64_t length = read_count(column, row);
     const std::size_t size = size_of(column.property().type);
     const std::size_t most_values = (file_.size() - at_) / size;
+    if (length >= static_cast<std::uint64_t>(kLongList)) throw_if_cancelled(execution_);
     const std::byte* values = take(length * size, row, column);
     std::byte* target = column.add_list(length, table_.rows, most_values);
     if (length > 0) std::memcpy(target, values, length * size);
@@ -143,13 +164,13 @@ std::uint64_t BinaryReader::read_count(const PlyColumn& column, std::size_t row)
     const std::size_t at = at_;
     const std::int64_t length = read_integer(type, take(size_of(type), row, column));
     if (length < 0) {
-        malformed("byte ", at, ": the list ", quoted(column.property().name), " in row ", row,
-                  " of element ", quoted(table_.name), " claims ", length,
+        malformed("byte ", at, ": the list ", quoted(column.property().name), " in row ",
+                  first_row_ + row, " of element ", quoted(table_.name), " claims ", length,
                   " values; a length cannot be negative");
     }
     if (length > static_cast<std::int64_t>(kMaxPlyListLength)) {
         fail(ErrorCode::LimitExceeded, "byte ", at, ": the list ", quoted(column.property().name),
-             " in row ", row, " of element ", quoted(table_.name), " claims ", length,
+             " in row ", first_row_ + row, " of element ", quoted(table_.name), " claims ", length,
              " values; the limit is ", kMaxPlyListLength);
     }
     return static_cast<std::uint64_t>(length);
@@ -157,11 +178,12 @@ std::uint64_t BinaryReader::read_count(const PlyColumn& column, std::size_t row)
 
 }  // namespace
 
-PlyTable read_binary_rows(const PlyElement& element, std::span<const std::byte> file,
-                          std::size_t& at, bool big_endian) {
-    BinaryReader reader(element, file, at, big_endian);
+PlyTable read_binary_rows(const PlyElement& element, std::size_t rows, PlyPlace& place,
+                          bool big_endian, const Execution& execution) {
+    BinaryReader reader(element, rows, place, big_endian, execution);
     PlyTable table = reader.read();
-    at = reader.at();
+    place.at = reader.at();
+    place.row += rows;
     return table;
 }
 

@@ -1,9 +1,23 @@
 #include "api/codec/ply_columns.h"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 namespace lpf {
+namespace {
+
+template <typename T>
+void fill_coordinate(const std::vector<std::byte>& data, Points& points, Eigen::Index axis) {
+    const std::byte* source = data.data();
+    for (Eigen::Index i = 0; i < points.cols(); ++i, source += sizeof(T)) {
+        T value;
+        std::memcpy(&value, source, sizeof value);
+        points(axis, i) = static_cast<double>(value);
+    }
+}
+
+}  // namespace
 
 std::byte* PlyColumn::set_rows(std::size_t rows) {
     data_.resize(rows * size_of(property_.type));
@@ -47,11 +61,30 @@ Attribute PlyColumn::release() {
     return result;
 }
 
-PlyTable table_for(const PlyElement& element) {
-    PlyTable table{element.name, static_cast<std::size_t>(element.count), {}};
+PlyTable table_for(const PlyElement& element, std::size_t rows) {
+    PlyTable table{element.name, rows, {}};
     table.columns.reserve(element.properties.size());
     for (const PlyProperty& property : element.properties) table.columns.emplace_back(property);
     return table;
+}
+
+void fill_coordinate(const PlyColumn& column, Points& points, Eigen::Index axis) {
+    switch (column.property().type) {
+        case ScalarType::Int8: return fill_coordinate<std::int8_t>(column.data(), points, axis);
+        case ScalarType::UInt8: return fill_coordinate<std::uint8_t>(column.data(), points, axis);
+        case ScalarType::Int16: return fill_coordinate<std::int16_t>(column.data(), points, axis);
+        case ScalarType::UInt16: return fill_coordinate<std::uint16_t>(column.data(), points, axis);
+        case ScalarType::Int32: return fill_coordinate<std::int32_t>(column.data(), points, axis);
+        case ScalarType::UInt32: return fill_coordinate<std::uint32_t>(column.data(), points, axis);
+        case ScalarType::Float32: return fill_coordinate<float>(column.data(), points, axis);
+        case ScalarType::Float64: return fill_coordinate<double>(column.data(), points, axis);
+    }
+}
+
+PlyTable read_rows(FileFormat format, const PlyElement& element, std::size_t rows, PlyPlace& place,
+                   const Execution& execution) {
+    if (format == FileFormat::PlyAscii) return read_ascii_rows(element, rows, place, execution);
+    return read_binary_rows(element, rows, place, format == FileFormat::PlyBigEndian, execution);
 }
 
 }  // namespace lpf

@@ -4,9 +4,12 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "api/codec/ply_header.h"
+#include "core/base/parallel.h"
+#include "core/shape/point_cloud.h"
 
 namespace lpf {
 
@@ -54,15 +57,38 @@ struct PlyTable {
     std::vector<PlyColumn> columns;
 };
 
-/// Reads the rows of `element` from ASCII or binary data; `at` moves behind them.
-/// @param file  the whole file, so that messages can name lines and offsets
-/// @throws Error{MalformedFile, LimitExceeded}
-[[nodiscard]] PlyTable read_ascii_rows(const PlyElement& element, std::span<const std::byte> file,
-                                       std::size_t& at);
-[[nodiscard]] PlyTable read_binary_rows(const PlyElement& element, std::span<const std::byte> file,
-                                        std::size_t& at, bool big_endian);
+/// Where a reader of rows stands.
+struct PlyPlace {
+    std::span<const std::byte> file;  ///< all of it, so that messages can name lines and offsets
+    std::size_t at = 0;               ///< the next byte
+    std::size_t row = 0;              ///< the next row of the element
+};
 
-/// An empty table with a column for each property.
-[[nodiscard]] PlyTable table_for(const PlyElement& element);
+/// Reads the next `rows` rows of `element` from ASCII or binary data; `place` moves behind them.
+/// @throws Error{MalformedFile, LimitExceeded, Cancelled}
+[[nodiscard]] PlyTable read_ascii_rows(const PlyElement& element, std::size_t rows, PlyPlace& place,
+                                       const Execution& execution);
+[[nodiscard]] PlyTable read_binary_rows(const PlyElement& element, std::size_t rows,
+                                        PlyPlace& place, bool big_endian,
+                                        const Execution& execution);
+
+[[nodiscard]] PlyTable read_rows(FileFormat format, const PlyElement& element, std::size_t rows,
+                                 PlyPlace& place, const Execution& execution);
+
+/// Fills one row of `points` with the values of a scalar column. @pre as many values as points
+void fill_coordinate(const PlyColumn& column, Points& points, Eigen::Index axis);
+
+/// An empty table of `rows` rows with a column for each property.
+[[nodiscard]] PlyTable table_for(const PlyElement& element, std::size_t rows);
+
+/// What reading and writing files is called while it goes on.
+inline constexpr std::string_view kDecodePhase = "decode";
+inline constexpr std::string_view kEncodePhase = "encode";
+
+/// Rows between two questions whether to stop.
+inline constexpr std::size_t kRowsPerStep = 512;
+
+/// Lists of so many values are asked about one by one: a few hundred rows of them are a whole file.
+inline constexpr std::int64_t kLongList = 1024;
 
 }  // namespace lpf

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cstring>
 
+#include "api/codec/ply_columns.h"
 #include "api/codec/strided.h"
 
 namespace lpf {
@@ -60,32 +61,33 @@ void append_count(const PlyOutputColumn& column, std::size_t length, bool big_en
     append_binary(size_of(column.count_type), 1, bytes.data(), big_endian, out);
 }
 
-void write_rows_with_lists(const PlyOutputElement& element, bool big_endian, std::string& out) {
-    for (std::size_t row = 0; row < element.rows; ++row) {
-        for (const PlyOutputColumn& column : element.columns) {
-            const std::size_t size = size_of(column.type);
-            if (!column.is_list) {
-                append_binary(size, 1, column.data + row * size, big_endian, out);
-                continue;
-            }
-            const std::size_t length = column.list_length(row);
-            append_count(column, length, big_endian, out);
-            const std::byte* values = column.data + column.list_begin(row) * size;
-            append_binary(size, length, values, big_endian, out);
+void write_row_with_lists(const PlyOutputElement& element, std::size_t row, bool big_endian,
+                          std::string& out) {
+    for (const PlyOutputColumn& column : element.columns) {
+        const std::size_t size = size_of(column.type);
+        if (!column.is_list) {
+            append_binary(size, 1, column.data + row * size, big_endian, out);
+            continue;
         }
+        const std::size_t length = column.list_length(row);
+        append_count(column, length, big_endian, out);
+        const std::byte* values = column.data + column.list_begin(row) * size;
+        append_binary(size, length, values, big_endian, out);
     }
 }
 
 /// A block of rows at a time, column by column.
-void write_equal_rows(const PlyOutputElement& element, bool big_endian, std::string& out) {
+void write_equal_rows(const PlyOutputElement& element, bool big_endian, std::string& out,
+                      const Execution& execution) {
     std::size_t row_size = 0;
     for (const PlyOutputColumn& column : element.columns) row_size += size_of(column.type);
     const std::size_t begin = out.size();
     out.resize(begin + element.rows * row_size);
+    throw_if_cancelled(execution);
     auto* const target = reinterpret_cast<std::byte*>(out.data() + begin);
     std::array<std::byte, 8 * kRowsPerBlock> swapped{};
-    for (std::size_t row = 0; row < element.rows; row += kRowsPerBlock) {
-        const std::size_t n = std::min(kRowsPerBlock, element.rows - row);
+    const auto write_block = [&](std::size_t row, std::size_t end, std::size_t) {
+        const std::size_t n = end - row;
         std::byte* value = target + row * row_size;
         for (const PlyOutputColumn& column : element.columns) {
             const std::size_t size = size_of(column.type);
@@ -98,35 +100,48 @@ void write_equal_rows(const PlyOutputElement& element, bool big_endian, std::str
             copy_strided(size, n, source, size, value, row_size);
             value += size;
         }
+    };
+    parallel_for(on_one_thread(execution), kEncodePhase, "rows", element.rows, kRowsPerBlock,
+                 write_block);
+}
+
+void write_ascii_row(const PlyOutputElement& element, std::size_t row, std::string& out) {
+    bool first = true;
+    for (const PlyOutputColumn& column : element.columns) {
+        if (!first) out += ' ';
+        first = false;
+        if (column.is_list) {
+            append_list_text(column, row, out);
+        } else {
+            append_text(column.type, column.data + row * size_of(column.type), out);
+        }
     }
+    out += '\n';
+}
+
+/// Calls write(row) for every row, and asks now and then whether to stop.
+template <typename Write>
+void for_each_row(const PlyOutputElement& element, const Execution& execution, Write write) {
+    parallel_for(on_one_thread(execution), kEncodePhase, "rows", element.rows, kRowsPerStep,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                     for (std::size_t row = begin; row < end; ++row) write(row);
+                 });
 }
 
 }  // namespace
 
-void write_ascii_rows(const PlyOutputElement& element, std::string& out) {
-    for (std::size_t row = 0; row < element.rows; ++row) {
-        bool first = true;
-        for (const PlyOutputColumn& column : element.columns) {
-            if (!first) out += ' ';
-            first = false;
-            if (column.is_list) {
-                append_list_text(column, row, out);
-            } else {
-                append_text(column.type, column.data + row * size_of(column.type), out);
-            }
-        }
-        out += '\n';
-    }
+void write_ascii_rows(const PlyOutputElement& element, std::string& out,
+                      const Execution& execution) {
+    for_each_row(element, execution, [&](std::size_t row) { write_ascii_row(element, row, out); });
 }
 
-void write_binary_rows(const PlyOutputElement& element, bool big_endian, std::string& out) {
+void write_binary_rows(const PlyOutputElement& element, bool big_endian, std::string& out,
+                       const Execution& execution) {
     const bool has_list = std::any_of(element.columns.begin(), element.columns.end(),
                                       [](const PlyOutputColumn& column) { return column.is_list; });
-    if (has_list) {
-        write_rows_with_lists(element, big_endian, out);
-    } else {
-        write_equal_rows(element, big_endian, out);
-    }
+    if (!has_list) return write_equal_rows(element, big_endian, out, execution);
+    for_each_row(element, execution,
+                 [&](std::size_t row) { write_row_with_lists(element, row, big_endian, out); });
 }
 
 }  // namespace lpf

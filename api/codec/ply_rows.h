@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/parallel.h"
 #include "core/shape/attribute.h"
 
 namespace lpf {
@@ -34,8 +35,10 @@ struct PlyOutputElement {
     std::vector<PlyOutputColumn> columns;
 };
 
-/// Appends the rows of `element` to `out`.
-void write_ascii_rows(const PlyOutputElement& element, std::string& out);
-void write_binary_rows(const PlyOutputElement& element, bool big_endian, std::string& out);
+/// Appends the rows of `element` to `out`. @throws Error{Cancelled}
+void write_ascii_rows(const PlyOutputElement& element, std::string& out,
+                      const Execution& execution);
+void write_binary_rows(const PlyOutputElement& element, bool big_endian, std::string& out,
+                       const Execution& execution);
 
 }  // namespace lpf

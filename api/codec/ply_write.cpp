@@ -41,10 +41,12 @@ ScalarType count_type_for(const Attribute& attribute) {
 
 class PlyWriter {
 public:
-    PlyWriter(const Document& document, const EncodeOptions& options, std::vector<Warning>& lost)
+    PlyWriter(const Document& document, const EncodeOptions& options, std::vector<Warning>& lost,
+              const Execution& execution)
         : document_(document),
           options_(options),
           lost_(lost),
+          execution_(execution),
           double_positions_(options.double_positions ||
                             exceed_float32(document.shape.cloud.points)) {}
 
@@ -54,11 +56,13 @@ public:
         for (const Element& element : document_.elements) add_element(element);
         std::string out = header();
         reserve_rows(out);
-        for (const PlyOutputElement& element : elements_) {
+        for (std::size_t i = 0; i < elements_.size(); ++i) {
+            const Execution part = part_for(i);
             if (options_.format == FileFormat::PlyAscii) {
-                write_ascii_rows(element, out);
+                write_ascii_rows(elements_[i], out, part);
             } else {
-                write_binary_rows(element, options_.format == FileFormat::PlyBigEndian, out);
+                write_binary_rows(elements_[i], options_.format == FileFormat::PlyBigEndian, out,
+                                  part);
             }
         }
         return out;
@@ -73,10 +77,12 @@ private:
     void add_coordinates(PlyOutputElement& vertex);
     [[nodiscard]] std::string header() const;
     void reserve_rows(std::string& out) const;
+    [[nodiscard]] Execution part_for(std::size_t element) const;
 
     const Document& document_;
     const EncodeOptions& options_;
     std::vector<Warning>& lost_;
+    const Execution& execution_;
     bool double_positions_;
     std::vector<std::vector<std::byte>> coordinates_;
     std::vector<PlyOutputElement> elements_;
@@ -97,6 +103,7 @@ void PlyWriter::add_coordinates(PlyOutputElement& vertex) {
     const Points& points = document_.shape.cloud.points;
     coordinates_.reserve(3);
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
+        throw_if_cancelled(execution_);
         coordinates_.push_back(double_positions_ ? coordinate_column<double>(points, axis)
                                                  : coordinate_column<float>(points, axis));
         PlyOutputColumn column;
@@ -140,7 +147,8 @@ void PlyWriter::add_faces() {
 
 void PlyWriter::add_element(const Element& element) {
     PlyOutputElement output{element.name, element.rows, {}};
-    NameSet names({});
+    // Here are no faces: no name may become that of a list of vertices by being made fit to print.
+    NameSet names({"vertex_indices", "vertex_index"});
     add_attributes(output, element.attributes, names);
     if (output.columns.empty()) output.rows = 0;
     elements_.push_back(std::move(output));
@@ -217,11 +225,23 @@ void PlyWriter::reserve_rows(std::string& out) const {
     out.reserve(options_.format == FileFormat::PlyAscii ? 2 * bytes : bytes);
 }
 
+/// The part of the bar that the rows of one element fill.
+Execution PlyWriter::part_for(std::size_t element) const {
+    double before = 0;
+    double all = 1;
+    for (std::size_t i = 0; i < elements_.size(); ++i) {
+        if (i < element) before += static_cast<double>(elements_[i].rows);
+        all += static_cast<double>(elements_[i].rows);
+    }
+    return part_of(execution_, before / all,
+                   (before + static_cast<double>(elements_[element].rows)) / all);
+}
+
 }  // namespace
 
 std::string encode_ply(const Document& document, const EncodeOptions& options,
-                       std::vector<Warning>& lost) {
-    return PlyWriter(document, options, lost).write();
+                       std::vector<Warning>& lost, const Execution& execution) {
+    return PlyWriter(document, options, lost, execution).write();
 }
 
 }  // namespace lpf

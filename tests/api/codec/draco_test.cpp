@@ -183,5 +183,20 @@ TEST(DracoWrite, IncompleteColorIsKeptColumnByColumn) {
     expect_same(read(written(document, draco())), document);
 }
 
+TEST(Draco, MeshWithManyPointsOutsideItsFacesKeepsThePoints) {
+    EncodeOptions options;
+    options.format = FileFormat::Draco;
+    for (const Eigen::Index points : {6, 7}) {
+        Document document;
+        document.shape.cloud.points = Points::Ones(3, points);
+        document.shape.triangles = Triangles::Constant(3, 2, 1);
+        std::vector<Warning> lost;
+        const Document again = read(written(document, options, &lost));
+        EXPECT_EQ(again.shape.cloud.points, document.shape.cloud.points);
+        EXPECT_EQ(again.shape.is_mesh(), points == 6);
+        EXPECT_EQ(has_warning(lost, "faces-dropped"), points == 7);
+    }
+}
+
 }  // namespace
 }  // namespace lpf

@@ -111,6 +111,15 @@ TEST(PlyMesh, FacesOfDroppedPointsGoAndTheRestIsRenumbered) {
     EXPECT_TRUE(has_warning(document.warnings, "faces-dropped"));
 }
 
+TEST(PlyMesh, TrianglesAloneAreNoPolygonsWhenTheOthersWereDropped) {
+    std::string text = mesh(2, "property list uchar int vertex_indices\n", "4 0 1 2 3\n3 2 3 4\n");
+    text.replace(text.find("0 0 0\n"), 6, "nan 0 0\n");
+    const Document document = read(text);
+    EXPECT_THAT(corners(document), ElementsAre(1, 2, 3));
+    EXPECT_TRUE(document.polygons.empty());
+    EXPECT_EQ(document.face_count(), 1U);
+}
+
 TEST(PlyMesh, PolygonsOfDroppedPointsGoWithTheirProperties) {
     const Document document =
         read(mesh(3, "property list uchar int vertex_indices\nproperty uchar id\n",

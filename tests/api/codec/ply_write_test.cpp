@@ -91,5 +91,18 @@ TEST(PlyWrite, CountsBigPolygonsInAWiderType) {
     EXPECT_EQ(read(text).polygons.vertices, document.polygons.vertices);
 }
 
+TEST(PlyWrite, NoColumnBecomesAListOfVerticesByItsNewName) {
+    Document document = points_with_every_type();
+    document.elements = {
+        {"face", 1, {column<std::int32_t>("vertex\x7findices", ScalarType::Int32, {99, 98, 97})}}};
+    document.elements[0].attributes[0].list_offsets = {0, 3};
+    std::vector<Warning> lost;
+    const Document again = read(written(document, {}, &lost));
+    EXPECT_TRUE(has_warning(lost, "attribute-renamed"));
+    EXPECT_EQ(again.face_count(), 0U);
+    ASSERT_EQ(again.elements.size(), 1U);
+    EXPECT_EQ(again.elements[0].attributes.at(0).name, "vertex_indices_2");
+}
+
 }  // namespace
 }  // namespace lpf
