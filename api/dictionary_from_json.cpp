@@ -54,13 +54,24 @@ void check_count(const json& rows, const char* name, std::uint64_t limit) {
                 name);
 }
 
+/// A file that holds no pattern is at fault itself, and not the parameter of a request.
+Pattern pattern_of(const Eigen::Matrix3Xf& points) {
+    try {
+        return Pattern::from_points(points);
+    } catch (const Error& error) {
+        throw Error(ErrorCode::MalformedFile,
+                    std::string("The dictionary's patternPoints are no pattern. ") + error.what(),
+                    "patternPoints");
+    }
+}
+
 Pattern read_pattern(const json& document, const Limits& limits) {
     const json& rows = member(document, "patternPoints");
     check_count(rows, "patternPoints", limits.pattern_points);
     const Eigen::Matrix3Xf points = read_triples(rows, "patternPoints");
     const json pattern = document.value("pattern", json::object());
     if (!pattern.is_object() || pattern.value("kind", json()) != "grid") {
-        return Pattern::from_points(points);
+        return pattern_of(points);
     }
     const json size = pattern.value("gridSize", json());
     if (!size.is_number_integer()) malformed("pattern", "a grid with its gridSize");

@@ -128,7 +128,7 @@ nlohmann::json to_json(const Problem& problem) {
     if (!problem.instance.empty()) json["instance"] = problem.instance;
     if (problem.retry_after > 0) json["retryAfter"] = problem.retry_after;
     for (const auto& [name, value] : problem.members) {
-        std::visit([&](const auto& v) { json[name] = v; }, value);
+        std::visit([&json, &key = name](const auto& v) { json[key] = v; }, value);
     }
     for (const FieldError& error : problem.errors) {
         json["errors"].push_back({{"pointer", error.pointer}, {"detail", error.detail}});

@@ -51,7 +51,7 @@ void read_disposition(std::string_view value, Part& part) {
     if (bare_media_type(value) != "form-data")
         refuse("A part of the form is no form-data; its Content-Disposition must say so.");
     const auto name = header_parameter(value, "name");
-    if (!name) {
+    if (!name || name->empty()) {
         refuse(
             "A part of the form has no name. Write the header as "
             "Content-Disposition: form-data; name=\"file\"; filename=\"...\".");
