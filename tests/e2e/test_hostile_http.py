@@ -212,7 +212,7 @@ def test_h8_heads_are_bounded(server):
     ["A: b\r\n c", "Content-Length: 5"],
     ["A: b\x00c", "Content-Length: 5"],
     ["A: b\rContent-Length: 5"],
-])
+], ids=range(16))
 def test_h9_ambiguous_requests_are_refused(server, fields):
     """400 and the end of the connection: what follows is never taken for a request."""
     start = time.monotonic()
@@ -269,7 +269,7 @@ def test_h11_no_exception_is_told(server):
     ('form-data; name=""; filename="a.ply"', False),
     ('form-data; name="' + "a" * 10_000 + '"', False),
     ('attachment; name="file"', False),
-])
+], ids=["reordered", "unquoted", "extended", "unnamed", "empty", "long", "attachment"])
 def test_h12_forms_are_read_by_the_book(server, disposition, taken):
     """A part has a name, however it is written, or the form is refused with 400."""
     body = (f"--b\r\nContent-Disposition: {disposition}\r\n\r\n".encode() + noisy_sphere(300) +
