@@ -48,6 +48,11 @@ export function map_values(values, [low, high], map) {
 /** @returns {Uint8Array} tints of `count` points, `color(i)` being three bytes */
 export function tints_of(count, color) {
     const tints = new Uint8Array(count * 3);
-    for (let i = 0; i < count; ++i) tints.set(color(i), i * 3);
+    for (let i = 0; i < count; ++i) {
+        const [r, g, b] = color(i);
+        tints[i * 3] = r;
+        tints[i * 3 + 1] = g;
+        tints[i * 3 + 2] = b;
+    }
     return tints;
 }

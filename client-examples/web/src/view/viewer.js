@@ -26,6 +26,7 @@ export class Viewer {
         orbit_by_keys(canvas, this.camera_, this.controls_, () => this.fit());
         new ResizeObserver(() => this.resize_()).observe(canvas.parentElement);
         this.resize_();
+        this.warm_up_();
     }
 
     /** @param {'before'|'after'} side @param {import('../worker/cloud.js').Cloud|null} cloud */
@@ -103,6 +104,15 @@ export class Viewer {
         const { positions, count } = drawn.cloud;
         drawn.light(await in_background('estimate_surface', { positions, count }));
         this.redraw();
+    }
+
+    /** Has the programs of points and triangles compiled while nobody waits, and keeps them. */
+    warm_up_() {
+        const corner = { count: 3, origin: [0, 0, 0], positions: new Float32Array([0, 0, 0, 1, 0, 0, 0, 1, 0]) };
+        this.kept_ = [new DrawnCloud(corner),
+            new DrawnCloud({ ...corner, index: new Uint32Array([0, 1, 2]) })];
+        const parts = this.kept_.map(({ scene }) => ({ scene, from: 0, to: 1 }));
+        this.renderer_.draw(parts, this.camera_, this.background_);
     }
 
     parts_() {
