@@ -86,7 +86,7 @@ public:
     void end(std::chrono::milliseconds patience) {
         if (leaving_.exchange(true)) return;
         reception_.leave();
-        transport_.close();
+        transport_.refuse_connections();
         streams_.stop();
         if (!guests_.wait_until_empty(patience)) guests_.cut_all();
         quick_.close();
@@ -94,6 +94,7 @@ public:
         bodies_.close();
         delivery_.stop();
         reception_.stop();
+        transport_.close();
     }
 
 private:

@@ -168,6 +168,8 @@ int Transport::bind(const std::string& host, int port) { return server_->open(ho
 
 int Transport::socket() const { return server_->socket(); }
 
+void Transport::refuse_connections() { ::shutdown(server_->socket(), SHUT_RDWR); }
+
 void Transport::close() { server_->shut(); }
 
 Outgoing Transport::render(const Head& head, Response response, bool keep_alive) {

@@ -40,6 +40,8 @@ public:
     int bind(const std::string& host, int port);
     /// The listening socket.
     [[nodiscard]] int socket() const;
+    /// Lets nobody connect any more; others may still wait at the socket.
+    void refuse_connections();
     /// Closes the port.
     void close();
 
