@@ -4,7 +4,7 @@
 #
 #   scripts/fuzz.sh TARGET|all [SECONDS]     seconds of each target; 60 if not given
 #
-# Targets: ply draco json head range. What was found belongs into tests/fuzz/corpus/TARGET
+# Targets: ply draco json head multipart range. What was found belongs into tests/fuzz/corpus/TARGET
 # together with its repair: every test run replays it.
 # BUILD_DIR names another build folder than build/fuzz.
 set -euo pipefail
