@@ -27,7 +27,9 @@ def set_number(data, dice):
         (float("nan"), float("inf"), -1e308, 1e-310, 3e38, 0.0))
     if kind == "<f" and abs(value) > 3.4e38:
         value = float("inf")
-    packed = struct.pack(kind, value if kind[1] in "fd" else value % 2 ** (8 * struct.calcsize(kind)))
+    if kind[1] not in "fd":
+        value %= 2 ** (8 * struct.calcsize(kind))
+    packed = struct.pack(kind, value)
     at = dice.randrange(len(data))
     data[at:at + len(packed)] = packed
 
@@ -51,7 +53,8 @@ def edit_header(data, dice):
     """Numbers and words of a PLY header, or the head of a Draco stream."""
     if data[:5] == b"DRACO":
         at = dice.randrange(5, min(len(data), 24)) if len(data) > 5 else 0
-        data[at:at + 1] = bytes([dice.choice((0, 1, 2, 3, 4, 0x7F, 0x80, 0xFF, dice.randrange(256)))])
+        value = dice.choice((0, 1, 2, 3, 4, 0x7F, 0x80, 0xFF, dice.randrange(256)))
+        data[at:at + 1] = bytes([value])
         return
     end = data.find(b"end_header")
     tokens = list(re.finditer(rb"\S+", bytes(data[:max(end, 0)])))
