@@ -93,9 +93,10 @@ export class App {
             const answer = await validate(this.api, this.processes.id, this.inputs_(), signal);
             if (!answer || signal.aborted) return;
             this.form.show_resolved(answer.resolvedParameters);
-            const { seconds, memoryBytes } = answer.estimate ?? {};
-            by_id('estimate').textContent = seconds === undefined ? ''
-                : `About ${duration(seconds)} and ${file_size(memoryBytes)} of memory.`;
+            const { seconds, memoryBytes } = answer.estimate;
+            const cost = `About ${duration(seconds)} and ${file_size(memoryBytes)} of memory.`;
+            by_id('estimate').textContent =
+                [cost, ...answer.warnings.map(({ detail }) => detail)].join(' ');
         } catch (error) {
             this.form.show_faults(error.errors ?? []);
         }
