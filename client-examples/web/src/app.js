@@ -1,11 +1,12 @@
 import { was_cancelled } from './api.js';
 import { in_background } from './background.js';
 import { by_id, element } from './dom.js';
+import { show_estimate } from './estimate.js';
 import { clear_fault, show_fault } from './fault.js';
 import { remember_job } from './history.js';
-import { fetch_input, is_drawn_whole, send_shape, validate } from './input.js';
+import { fetch_input, is_drawn_whole, send_shape } from './input.js';
 import { cancel_job, follow_job, job_path, start_job } from './job.js';
-import { count_of, duration, file_size } from './numbers.js';
+import { count_of, file_size } from './numbers.js';
 import { fetch_result, show_no_result, show_result } from './result/result.js';
 import { open_tab } from './tabs.js';
 
@@ -84,22 +85,9 @@ export class App {
     }
 
     /** Shows what automatic parameters come to, and what the job would cost. */
-    async estimate() {
-        by_id('estimate').textContent = '';
-        this.form.show_resolved({});
-        if (!this.shape_) return;
-        const { signal } = this.session_;
-        try {
-            const answer = await validate(this.api, this.processes.id, this.inputs_(), signal);
-            if (!answer || signal.aborted) return;
-            this.form.show_resolved(answer.resolvedParameters);
-            const { seconds, memoryBytes } = answer.estimate;
-            const cost = `About ${duration(seconds)} and ${file_size(memoryBytes)} of memory.`;
-            by_id('estimate').textContent =
-                [cost, ...answer.warnings.map(({ detail }) => detail)].join(' ');
-        } catch (error) {
-            this.form.show_faults(error.errors ?? []);
-        }
+    estimate() {
+        const inputs = this.shape_ && this.inputs_();
+        return show_estimate(this.api, this.processes.id, inputs, this.form, this.session_.signal);
     }
 
     /** Begins anew: what was going on before is not shown any more. */

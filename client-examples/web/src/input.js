@@ -1,4 +1,3 @@
-import { was_cancelled } from './api.js';
 import { in_background } from './background.js';
 
 /** More points than this are drawn as a sample. */
@@ -48,17 +47,4 @@ export async function fetch_input(api, shape) {
 /** Whether the browser gets the whole file, with its attributes and triangles. */
 export function is_drawn_whole({ points, bytes }) {
     return points <= DRAWN_POINTS && bytes <= WHOLE_BYTES;
-}
-
-/**
- * What the automatic parameters come to for a shape; null where the server does not tell.
- * @returns {Promise<object|null>}
- */
-export async function validate(api, process, inputs, signal) {
-    try {
-        return await api.post(`/v1/processes/${process}/validate`, { inputs }, { signal });
-    } catch (error) {
-        if (was_cancelled(error) || error.status === 404 || error.status === 405) return null;
-        throw error;
-    }
 }

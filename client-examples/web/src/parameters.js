@@ -88,16 +88,18 @@ export class ParameterForm {
 
     /**
      * Marks the inputs that a problem points at.
-     * @returns {boolean} whether there was one; the first has the focus then
+     * @param {{pointer: string, detail: string}[]} errors
+     * @param {{focus: boolean}} [then] whether the first of them gets the focus
+     * @returns {boolean} whether there was one
      */
-    show_faults(errors) {
+    show_faults(errors, { focus } = { focus: true }) {
         const named = errors.map(({ pointer, detail }) => ({ name: pointer.split('/').at(-1), detail }))
             .filter(({ name }) => this.field_(name));
         for (const { name, detail } of named) {
             this.field_(name).setAttribute('aria-invalid', 'true');
             this.row_(name).querySelector('.fault').textContent = detail;
         }
-        if (named.length) {
+        if (named.length && focus) {
             this.place_.closest('details').open = true;
             this.field_(named[0].name).focus();
         }
