@@ -6,6 +6,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <new>
@@ -47,7 +48,7 @@ TEST(Sandbox, EndsWhatTakesTooLong) {
     SandboxLimits limits = kLimits;
     limits.wall_seconds = 1;
     const auto wait = [] {
-        for (volatile unsigned i = 0;; i = i + 1) {
+        for (std::atomic<unsigned> i = 0;; ++i) {
         }
     };
     EXPECT_EXIT(confined(limits, wait), testing::KilledBySignal(SIGALRM), "");
