@@ -73,8 +73,8 @@ http::Response Router::dispatch(http::Request& request) const {
     }
     const std::string allow = allow_header(std::move(others));
     if (method == "OPTIONS") {
-        http::Response response{
-            .status = 204, .content_type = {}, .body = {}, .file = {}, .headers = {}};
+        http::Response response;
+        response.status = 204;
         return response.set("Allow", allow);
     }
     http::Response response =

@@ -31,7 +31,7 @@ struct Services {
     static constexpr int kDecoders = 2;
     std::counting_semaphore<kDecoders> decoders{kDecoders};
 
-    RequestsInFlight in_flight;
+    RequestsInFlight in_flight{};
 
     [[nodiscard]] const Limits& limits() const { return config.limits; }
     [[nodiscard]] UnixMillis result_retention() const {
