@@ -61,8 +61,8 @@ TEST_P(PreviewOfEachKind, TakesAsManyPointsOfEveryStretch) {
 INSTANTIATE_TEST_SUITE_P(Formats, PreviewOfEachKind,
                          testing::Values(FileFormat::PlyBinary, FileFormat::PlyBigEndian,
                                          FileFormat::PlyAscii, FileFormat::Draco),
-                         [](const auto& info) {
-                             std::string name(format_name(info.param));
+                         [](const auto& file) {
+                             std::string name(format_name(file.param));
                              std::ranges::replace(name, '-', '_');
                              return name;
                          });
