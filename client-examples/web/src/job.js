@@ -38,7 +38,9 @@ async function follow_events(api, id, after, info, update, signal) {
     for await (const event of read_events(response)) {
         after = event.id ?? after;
         if (!['status', 'progress', 'end'].includes(event.name)) continue;
-        Object.assign(info, JSON.parse(event.data));
+        const news = JSON.parse(event.data);
+        if (news.updated < info.updated) continue;  // a new reader is told the story so far
+        Object.assign(info, news);
         update(info);
         if (has_ended(info)) return after;
     }
