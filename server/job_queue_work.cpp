@@ -57,8 +57,12 @@ void JobQueue::run(RunningJob& job) {
     const std::string& id = job.lease().job_id;
     forecast_.outdated();
     if (stopping_) job.stop(StopReason::Shutdown);
-    teller_.runs(job.info());
-    log_.info("job-started", {{"job", id}, {"attempt", job.info().attempt}});
+    const StatusInfo begun = job.info();
+    teller_.runs(begun);
+    if (begun.attempt == 1)
+        telemetry_.observe_queue_wait(
+            static_cast<double>(begun.started.value_or(begun.created) - begun.created) / 1000.0);
+    log_.info("job-started", {{"job", id}, {"attempt", begun.attempt}});
     try {
         run_guarded(job);
     } catch (const std::exception& error) {  // the lease runs out, and the job is taken back
@@ -119,6 +123,8 @@ void JobQueue::finish(RunningJob& job, const StatusInfo& info, const JobOutcome&
     teller_.ends(info);
     const std::string status(status_name(info.status));
     telemetry_.count_job(process_id(info.process), status, job.seconds());
+    for (const auto& [phase, seconds] : outcome.phase_seconds)
+        telemetry_.observe_phase(phase, seconds);
     if (info.status == JobStatus::Successful)
         forecast_.learn({info.process, job.points(), job.seconds()});
     log_.info("job-finished",

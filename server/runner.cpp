@@ -90,7 +90,9 @@ JobOutcome Runner::run(RunningJob& job) const {
     report.phase_seconds = times.seconds();
     report.total_seconds = job.seconds();
     writer.add_report(report);
-    return writer.take_outcome();
+    JobOutcome outcome = writer.take_outcome();
+    outcome.phase_seconds = times.seconds();
+    return outcome;
 }
 
 Document Runner::load_shape(const std::string& shape_id, const Execution& execution) const {

@@ -4,6 +4,8 @@
 #include <mutex>
 #include <optional>
 #include <stop_token>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/base/progress.h"
@@ -20,6 +22,7 @@ struct JobOutcome {
     std::vector<ResultFile> results;
     std::optional<StoredDictionary> dictionary;
     FileHold files_held;  ///< until the books name the files
+    std::vector<std::pair<std::string, double>> phase_seconds = {};  ///< how long each phase took
 };
 
 /// A job while a worker has it: its state in memory, always fresh, and the switch that stops it.
