@@ -8,6 +8,7 @@ import time
 
 import pytest
 
+from conftest import needs_binary
 from contract import Client
 from server import Server
 from shapes import noisy_sphere
@@ -15,7 +16,8 @@ from shapes import noisy_sphere
 
 @pytest.fixture
 def small_disk(tmp_path):
-    """A file system of 16 MiB."""
+    """A file system of 16 MiB for a server of the test's own."""
+    needs_binary()
     folder = tmp_path / "disk"
     folder.mkdir()
     mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=16m", "tmpfs", str(folder)],
