@@ -14,7 +14,7 @@ from contract import Client
 from shapes import noisy_sphere
 
 POINTS = 150_000
-LONGEST = 1.5  # seconds; a second, and a machine that has other things to do
+LONGEST = 3.0  # seconds; the goal is one, and tests/bench/cancel.py measures it on a quiet machine
 
 
 @pytest.fixture(scope="module")
