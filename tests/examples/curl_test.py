@@ -2,23 +2,8 @@
 
 import json
 import re
-import subprocess
 
-from conftest import BIN, ROOT, simulate
-
-
-def vertices(path):
-    """Number of points that a PLY header claims; the body must be there too."""
-    data = path.read_bytes()
-    header, _, body = data.partition(b"end_header\n")
-    assert data.startswith(b"ply\n") and body
-    return int(re.search(rb"element vertex (\d+)", header).group(1))
-
-
-def rmse(path, shape="curve_on_surface"):
-    answer = subprocess.run([BIN / "lpf-scan", "error", path, "--shape", shape], check=True,
-                            capture_output=True, text=True).stdout
-    return json.loads(answer)["rmse"]
+from conftest import ROOT, rmse, simulate, vertices
 
 
 def test_every_example_is_run_here():

@@ -56,8 +56,6 @@ class Follower:
         """The statusInfo of the successful job; JobFailed if it ended otherwise."""
         try:
             job = self._by_events() if events else self._by_asking()
-        except StreamRefused:
-            job = self._by_asking()
         except Failure as failure:
             if getattr(failure, "status", None) == 410:
                 raise JobFailed(str(failure)) from failure
@@ -75,6 +73,8 @@ class Follower:
                 if end:
                     return end
                 error = "the event stream ended early"
+            except StreamRefused:
+                return self._by_asking()
             except BROKEN as lost:
                 error = str(lost) or type(lost).__name__
             broken = broken + 1 if self._last_event == before else 0
