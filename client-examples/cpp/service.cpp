@@ -174,35 +174,40 @@ void Service::save_result(const std::string& job, const std::string& name,
                           const std::string& path) {
     const json results = get("/v1/jobs/" + job + "/results");
     if (!results.contains(name)) throw Failure(Exit::BadFile, "The job has no " + name);
-    const json& result = results.at(name);
-    const double size = std::max(result.value("bytes", 1.0), 1.0);
-    const std::string target = base_ + result.value("href", "");
     Download file(path);
+    fetch(results.at(name), file);
+    file.keep(results.at(name).value("sha256", ""));
+}
+
+/// Reads an entry of a job's results, going on where a broken connection stopped.
+void Service::fetch(const json& result, Download& file) {
+    const double size = std::max(result.value("bytes", 1.0), 1.0);
     request([&](httplib::Client& client) {
-        double received = 0;
+        httplib::Headers headers;
+        if (file.size() > 0) {
+            headers.emplace("Range", "bytes=" + std::to_string(file.size()) + "-");
+            headers.emplace("If-Range", '"' + result.value("sha256", "") + '"');
+        }
         int status = 0;
         std::string refusal;
-        file.restart();
-        auto answer = client.Get(
-            target.c_str(),
-            [&](const httplib::Response& response) {
-                status = response.status;
+        const auto begin = [&](const httplib::Response& response) {
+            status = response.status;
+            if (status == 200) file.restart();
+            return true;
+        };
+        const auto take = [&](const char* data, std::size_t length) {
+            if (status >= 400) {
+                refusal.append(data, length);
                 return true;
-            },
-            [&](const char* data, std::size_t length) {
-                if (status == 200) {
-                    file.write(data, length);
-                } else {
-                    refusal.append(data, length);
-                }
-                received += double(length);
-                progress_("download", std::min(100.0, 100 * received / size), "");
-                return !interrupted;
-            });
-        if (answer && status != 200) answer->body = refusal;
+            }
+            file.write(data, length);
+            progress_("download", std::min(100.0, 100 * double(file.size()) / size), "");
+            return !interrupted;
+        };
+        auto answer = client.Get((base_ + result.value("href", "")).c_str(), headers, begin, take);
+        if (answer) answer->body = refusal;
         return answer;
     });
-    file.keep(result.value("sha256", ""));
 }
 
 void Service::cancel(const std::string& job) {

@@ -13,6 +13,8 @@ struct Response;
 
 namespace lpf_client {
 
+class Download;
+
 /// Where the service is, and how patient the client.
 struct Access {
     std::string url = "http://127.0.0.1:8080";
@@ -46,6 +48,7 @@ private:
 
     httplib::Response request(const Send& send);
     nlohmann::json get(const std::string& path, const std::string& prefer = {});
+    void fetch(const nlohmann::json& result, Download& file);
     void check_upload(const std::string& path);
 
     Access access_;

@@ -64,12 +64,14 @@ void Download::restart() {
     if (file_.is_open()) file_.close();
     file_.open(part_, std::ios::binary | std::ios::trunc);
     if (!file_) throw Failure(Exit::CannotSave, path_ + " cannot be written");
+    size_ = 0;
     EVP_DigestInit_ex(hash_->context, EVP_sha256(), nullptr);
 }
 
 void Download::write(const char* data, std::size_t size) {
     file_.write(data, static_cast<std::streamsize>(size));
     EVP_DigestUpdate(hash_->context, data, size);
+    size_ += size;
 }
 
 void Download::keep(const std::string& sha256) {

@@ -31,6 +31,7 @@ public:
 
     void restart();
     void write(const char* data, std::size_t size);
+    std::uint64_t size() const { return size_; }
 
     /// Shows the file under its name if what came has this SHA-256 (hexadecimal).
     void keep(const std::string& sha256);
@@ -42,6 +43,7 @@ private:
     std::string part_;
     std::ofstream file_;
     std::unique_ptr<Hash> hash_;
+    std::uint64_t size_ = 0;
 };
 
 }  // namespace lpf_client

@@ -85,13 +85,15 @@ def test_ctrl_c_cancels_the_job(url, tmp_path):
     assert gone.value.code == 410
 
 
-def test_a_lost_answer_makes_no_second_job(url, scan, tmp_path):
+def test_lost_answers_make_no_second_job_and_downloads_go_on(url, scan, tmp_path):
     before = len(get(url, "/v1/jobs?limit=1000")["jobs"])
     proxy = FlakyProxy(url, lambda line, count:
                        "lose the answer" if line.startswith("POST") and count == 1 else
                        3000 if line.split()[1].endswith("/points") and count == 1 else None)
     run(proxy.url, "denoise", scan, tmp_path / "out.ply")
     proxy.close()
+    downloads = [head for head in proxy.heads if "/results/points" in head]
+    assert len(downloads) == 2 and re.search(r"(?i)\nrange: bytes=\d+-", downloads[1])
     keys = [re.search(r"(?i)idempotency-key: (\S+)", head).group(1)
             for head in proxy.sent("POST", "/v1/processes/denoise")]
     assert len(keys) == 2 and keys[0] == keys[1]

@@ -73,11 +73,23 @@ def test_quiet(url, scan, tmp_path):
 def test_the_bar_on_a_terminal(url, scan, tmp_path):
     terminal, end = pty.openpty()
     done = subprocess.run([*PYTHON, "denoise", scan, "-o", tmp_path / "out.ply"], stderr=end,
-                          env={**environment(url), "COLUMNS": "90"}, stdin=subprocess.DEVNULL,
+                          env={**environment(url), "COLUMNS": "100"}, stdin=subprocess.DEVNULL,
                           stdout=subprocess.DEVNULL, timeout=60, check=False)
     said = os.read(terminal, 1 << 16).decode()
     assert done.returncode == 0, said
     assert re.search(r"\r\x1b\[Kdenoise +\[#{30}\] 100 %", said)
+
+
+def test_the_program_of_the_readme(url, scan, tmp_path):
+    folder = PYTHON[1].parent
+    program = re.search(r"```python\n(.*?)```", (folder / "README.md").read_text(), re.DOTALL)[1]
+    (tmp_path / "in.ply").write_bytes(scan.read_bytes())
+    said = subprocess.run(
+        [PYTHON[0], "-c", program.replace("http://127.0.0.1:8080", url)], cwd=tmp_path, check=True,
+        env={**environment(url), "PYTHONPATH": str(folder)}, capture_output=True, text=True,
+        timeout=60).stdout
+    assert "successful 100" in said
+    assert vertices(tmp_path / "out.ply") == 5000
 
 
 def test_no_server(scan, tmp_path):

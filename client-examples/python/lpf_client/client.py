@@ -29,7 +29,7 @@ class Client:
         return [process["id"] for process in self.get("/v1/processes").get("processes", [])]
 
     def inputs(self, process):
-        """{name: description} of a process's inputs besides the shape, each with its JSON Schema."""
+        """{name: description} of a process's inputs but the shape, each with its schema."""
         inputs = self.get(f"/v1/processes/{process}").get("inputs", {})
         return {name: entry for name, entry in inputs.items() if name != "shape"}
 

@@ -57,7 +57,7 @@ def printable(text):
 
 
 def describe(problem):
-    """A problem document (RFC 9457) as text: title, detail, and each error that points elsewhere."""
+    """A problem document (RFC 9457) as text: title, detail, and what else was wrong."""
     title, detail = problem.get("title", ""), problem.get("detail", "")
     lines = [f"{title}: {detail}" if title and detail else title or detail or "no reason was given"]
     for error in problem.get("errors", []):

@@ -81,7 +81,7 @@ class Progress:
 
     def _draw(self, what, percent, note):
         columns = shutil.get_terminal_size().columns - 1
-        width = min(30, max(0, columns - 40))
+        width = min(30, max(0, columns - 60))
         bar = "#" * round(width * min(percent, 100) / 100)
         line = f"{what:<10.10} [{bar:.<{width}}] {percent:3.0f} %  {note}"[:columns]
         self._stream.write("\r\x1b[K" + line)
