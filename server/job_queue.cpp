@@ -171,7 +171,8 @@ void JobQueue::watch(const std::stop_token& stop) {
 
 void JobQueue::save_progress(RunningJob& job) {
     try {
-        if (!storage_.jobs().save_progress(job.lease(), job.info(), now_millis()))
+        if (!storage_.jobs().save_progress(job.lease(), job.info(), now_millis()) &&
+            !job.is_ending())
             leases_.lost(job);  // its work is of no use any more
     } catch (const std::exception& error) {
         log_.error("progress-not-stored", {{"error", error.what()}});

@@ -116,6 +116,7 @@ void JobQueue::end_stopped(RunningJob& job) {
 }
 
 void JobQueue::finish(RunningJob& job, const StatusInfo& info, const JobOutcome& outcome) {
+    job.begin_end();
     if (!store_end(job, info, outcome)) {
         leases_.lost(job);
         return;

@@ -57,10 +57,15 @@ void LeaseKeeper::renew(RunningJob& job) {
         log_.error("lease-not-renewed", {{"job", job.lease().job_id}, {"error", error.what()}});
         if (now < job.lease_until()) return;  // there is time for another try
     }
-    if (!job.stop_reason()) lost(job);
+    if (!job.stop_reason() && !job.is_ending()) lost(job);
 }
 
 void LeaseKeeper::lost(RunningJob& job) {
+    const auto stored = store_.find_job(job.lease().job_id);
+    if (stored && stored->info.status == JobStatus::Dismissed) {
+        job.stop(StopReason::Dismissed);
+        return;
+    }
     if (!job.stop(StopReason::LeaseLost)) return;  // dismissed, or known already
     telemetry_.count_lease_loss();
     log_.warn("lease-lost", {{"job", job.lease().job_id}});

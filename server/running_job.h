@@ -55,6 +55,10 @@ public:
     /// Enters a phase that does not count for itself.
     void enter_phase(const std::string& phase, double percent);
 
+    /// The worker is writing the job's end: from then on its lease may be gone for a good reason.
+    void begin_end() { ending_ = true; }
+    [[nodiscard]] bool is_ending() const { return ending_; }
+
     /// Only the first reason counts. @returns false if there was one before
     bool stop(StopReason reason);
     [[nodiscard]] std::optional<StopReason> stop_reason() const;
@@ -68,6 +72,7 @@ private:
     Lease lease_;
     std::uint64_t points_;
     std::atomic<UnixMillis> lease_until_;
+    std::atomic<bool> ending_ = false;
     Clock::time_point started_ = Clock::now();
     Clock::time_point deadline_;
     std::stop_source stop_;

@@ -69,6 +69,41 @@ TEST_F(JobQueueTest, TheLateResultOfALostLeaseIsDropped) {
     EXPECT_EQ(queue->find(id)->results[0].sha256, sha256_of("result of run 2"));
 }
 
+TEST_F(JobQueueTest, AJobThatAnotherServerDismissesStopsHereWithoutALoss) {
+    const auto queue = make_queue(
+        [&](RunningJob& job) -> JobOutcome {
+            (void)books_.dismiss(job.lease().job_id, now_millis());
+            return work_forever(job);
+        },
+        short_leases());
+    queue->start();
+    submit(*queue);
+    EXPECT_TRUE(becomes([&] {
+        return telemetry_.text({}).find("lpf_cancel_seconds_count 1") != std::string::npos;
+    })) << telemetry_.text({});
+    EXPECT_NE(telemetry_.text({}).find("lpf_lease_losses_total 0"), std::string::npos);
+}
+
+TEST_F(JobQueueTest, TheLeaseOfAJobThatHasJustEndedIsNotLost) {
+    books_.add_job({.info = new_job()}, {});
+    auto claim = books_.claim_next({.now = now_millis(), .lease_until = kFarFuture, .rules = {}});
+    StatusInfo done = claim->info;
+    done.status = JobStatus::Successful;
+    done.finished = now_millis();
+    RunningJobs running;
+    const auto job = std::make_shared<RunningJob>(std::move(*claim), 60.0);
+    running.add(job);
+    LeaseKeeper keeper(books_, running, log_, telemetry_, short_leases().leases,
+                       [](const std::vector<StatusInfo>&) {});
+    job->begin_end();
+    ASSERT_TRUE(books_.finish(job->lease(), done, {}, std::nullopt, now_millis()));
+    keeper.start();
+    std::this_thread::sleep_for(milliseconds(400));  // four renewals
+    keeper.stop();
+    EXPECT_FALSE(job->stop_reason());
+    EXPECT_NE(telemetry_.text({}).find("lpf_lease_losses_total 0"), std::string::npos);
+}
+
 TEST_F(JobQueueTest, JobsOfAnotherProcessThatDiedAreTakenBack) {
     const auto queue = make_queue(work_nothing, short_leases());
     queue->start();
