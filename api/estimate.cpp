@@ -24,6 +24,7 @@ constexpr double kOutlierPoint = 4e-6;
 constexpr double kNormalPoint = 8e-6;
 constexpr double kPlacePoint = 0.15e-6;
 constexpr double kPlaceField = 2.5e-6;
+constexpr double kTriangleProbe = 1.9;  // of a mesh, for one of points
 constexpr double kGatherPoint = 0.004e-6;
 constexpr double kVote = 0.04e-6;
 constexpr double kOutputPoint = 13.5e-6;  // proposals and consensus of a resampling
@@ -61,7 +62,8 @@ Seconds placing(const Workload& w) {
 
 /// Poses, joint loop and closing pass (`analyze` of core).
 Seconds analysis(const Workload& w, const AnalysisParams& p) {
-    const double probe = probe_seconds(p.pattern.points) + kGatherPoint * w.points_per_field;
+    const double kind = p.probing == ProbingKind::NearestTriangle ? kTriangleProbe : 1.0;
+    const double probe = kind * probe_seconds(p.pattern.points) + kGatherPoint * w.points_per_field;
     const double code = code_seconds(p.pattern.points, p.atoms);
     const double sample = p.keep_dictionary ? 0 : std::min<double>(p.learning_sample, w.fields);
     const double learn = sample * (probe + p.learning_rounds * code);
@@ -111,8 +113,8 @@ constexpr double kTreePoint = 44;
 constexpr double kGridPoint = 60;
 constexpr double kBallotPoint = 32;
 constexpr double kField = 160;
-constexpr double kCandidate = 110;
-constexpr double kJobBytes = 12e6;
+constexpr double kCandidate = 70;
+constexpr double kJobBytes = 5e6;
 constexpr double kSafety = 1.15;
 
 /// Places at which each field proposes points.
