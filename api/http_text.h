@@ -8,6 +8,15 @@
 
 namespace lpf {
 
+/// ASCII letters in lower case.
+[[nodiscard]] std::string lower(std::string_view text);
+
+/// Without blanks and tabs at either end.
+[[nodiscard]] std::string_view trim(std::string_view text);
+
+/// True if there is a control character other than a tab, which no header field may hold.
+[[nodiscard]] bool has_control(std::string_view text);
+
 /// Seconds of `Prefer: wait=N` (RFC 7240), at most `maximum`; nothing if it is absent or not a
 /// number. Preferences that are not understood are passed over, as the RFC wants.
 [[nodiscard]] std::optional<std::uint64_t> prefer_wait(std::string_view header,

@@ -24,11 +24,7 @@ Json progress_schema() {
                    {"progress", {{"type", "integer"}, {"minimum", 0}, {"maximum", 100}}},
                    {"updated", time("When any of this changed last.")},
                    {"phase", text("What is being done."), false},
-                   {"phaseProgress",
-                    object("Progress within the phase.", {{"done", integer("Units done.")},
-                                                          {"total", integer("Units in all.")},
-                                                          {"unit", text("What is counted.")}}),
-                    false},
+                   {"phaseProgress", phase_progress(), false},
                    {"etaSeconds", number("Estimate of the time that is left."), false},
                    {"queuePosition", integer("Place in the queue; 1 is next.", 1), false}});
 }

@@ -90,6 +90,12 @@ Json id(std::string_view description) {
     return described({{"type", "string"}, {"pattern", kUuidPattern}}, description);
 }
 
+Json phase_progress() {
+    return object("Progress within the phase.", {{"done", integer("Units done.")},
+                                                 {"total", integer("Units in all.")},
+                                                 {"unit", text("What is counted.")}});
+}
+
 Json one_of(std::string_view description, const std::vector<std::string_view>& names) {
     return described({{"type", "string"}, {"enum", names}}, description);
 }

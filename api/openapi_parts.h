@@ -33,6 +33,8 @@ struct Field {
 [[nodiscard]] Json boolean(std::string_view description);
 [[nodiscard]] Json time(std::string_view description);
 [[nodiscard]] Json id(std::string_view description);
+/// The `phaseProgress` of a job and of its events.
+[[nodiscard]] Json phase_progress();
 [[nodiscard]] Json one_of(std::string_view description, const std::vector<std::string_view>& names);
 
 /// {"$ref": "#/components/SECTION/NAME"}

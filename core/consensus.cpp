@@ -71,7 +71,6 @@ Candidates find_consensus(const Candidates& candidates, double spacing,
         points.push_back(point);
         result.field.push_back(candidates.field[i]);
         all.for_each_near(point, [&](std::uint32_t k) { spent[k] = 1; });
-        spent[i] = 1;
     };
     // Each choice depends on those before: one thread.
     Execution sequential = execution;

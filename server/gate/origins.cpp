@@ -1,8 +1,8 @@
 #include "server/gate/origins.h"
 
 #include <algorithm>
-#include <cctype>
 
+#include "api/http_text.h"
 #include "api/problem.h"
 #include "core/base/error.h"
 #include "server/gate/peer.h"
@@ -18,13 +18,6 @@ constexpr const char* kAnswerHeaders =
     "Preference-Applied, X-Request-Id, Idempotency-Replayed, RateLimit-Limit, RateLimit-Remaining, "
     "RateLimit-Reset, WWW-Authenticate";
 constexpr const char* kPreflightSeconds = "600";
-
-std::string lower(std::string_view text) {
-    std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return out;
-}
 
 bool is_secure(std::string_view origin) { return origin.starts_with("https://"); }
 

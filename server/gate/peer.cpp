@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstring>
 
+#include "api/http_text.h"
 #include "core/base/error.h"
 
 namespace lpf::gate {
@@ -13,12 +14,6 @@ namespace {
 
 constexpr std::array<unsigned char, 12> kIpv4Prefix{0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xff, 0xff};
 constexpr std::size_t kLongestAddress = 64;
-
-std::string_view trim(std::string_view text) {
-    const auto first = text.find_first_not_of(" \t");
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
-}
 
 /// "[::1]:80" -> "::1", "1.2.3.4:80" -> "1.2.3.4"
 std::string_view without_port(std::string_view text) {

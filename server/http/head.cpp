@@ -5,6 +5,7 @@
 #include <cctype>
 #include <charconv>
 
+#include "api/http_text.h"
 #include "api/problem.h"
 
 namespace lpf::http {
@@ -26,26 +27,6 @@ bool is_token(std::string_view text) {
         return std::isalnum(static_cast<unsigned char>(c)) ||
                kMarks.find(c) != std::string_view::npos;
     });
-}
-
-bool has_control(std::string_view text) {
-    return std::any_of(text.begin(), text.end(), [](char c) {
-        const auto byte = static_cast<unsigned char>(c);
-        return (byte < 0x20 && c != '\t') || byte == 0x7f;
-    });
-}
-
-std::string lower(std::string_view text) {
-    std::string out(text);
-    std::transform(out.begin(), out.end(), out.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return out;
-}
-
-std::string_view trim(std::string_view text) {
-    const auto first = text.find_first_not_of(" \t");
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(" \t") - first + 1);
 }
 
 void parse_target(std::string_view target, const Limits& limits, Head& head) {
