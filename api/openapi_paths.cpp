@@ -19,10 +19,10 @@ Json document_paths() {
         Operation("getLandingPage", "Service", "Landing page")
             .answers(200, "Links to everything.", json_content(component("LandingPage")))
             .json();
-    paths["/v1"]["get"] = Operation("getLandingPageToo", "Service", "The same landing page")
-                              .answers(200, "Links to everything.",
-                                       json_content(component("LandingPage")))
-                              .json();
+    paths["/v1"]["get"] =
+        Operation("getLandingPageToo", "Service", "The same landing page")
+            .answers(200, "Links to everything.", json_content(component("LandingPage")))
+            .json();
     paths["/v1/conformance"]["get"] =
         Operation("getConformance", "Service", "Conformance classes")
             .answers(200, "What the service conforms to.", json_content(component("Conformance")))

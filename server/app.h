@@ -7,8 +7,8 @@
 
 #include "server/config.h"
 #include "server/file_blob_store.h"
-#include "server/job_events.h"
 #include "server/gate.h"
+#include "server/job_events.h"
 #include "server/job_queue.h"
 #include "server/preview_cache.h"
 #include "server/runner.h"

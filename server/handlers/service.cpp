@@ -12,8 +12,7 @@ http::Response get_landing_page(Services&, http::Request&) { return json_respons
 http::Response get_conformance(Services&, http::Request&) { return json_response(conformance()); }
 
 http::Response get_openapi(Services& services, http::Request&) {
-    http::Response response =
-        json_response(openapi_document(services.limits(), version(), "/"));
+    http::Response response = json_response(openapi_document(services.limits(), version(), "/"));
     response.content_type = "application/vnd.oai.openapi+json;version=3.1";
     return response;
 }

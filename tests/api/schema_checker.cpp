@@ -31,7 +31,8 @@ const std::set<std::string> kWords{"$ref",
                                    "default",
                                    "x-unit",
                                    "x-auto",
-                                   "contentMediaType", "contentSchema"};
+                                   "contentMediaType",
+                                   "contentSchema"};
 
 bool has_type(const json& value, const std::string& type) {
     if (type == "object") return value.is_object();
