@@ -109,6 +109,10 @@ double processor_seconds() {
 
 // Bytes of one unit.
 constexpr double kPosition = 24;
+constexpr double kFace = 12;
+constexpr double kApartOnce = 10e6;
+constexpr double kApartPoint = 100;
+constexpr double kApartFace = 200;
 constexpr double kTreePoint = 44;
 constexpr double kGridPoint = 60;
 constexpr double kBallotPoint = 32;
@@ -155,14 +159,25 @@ Estimate estimate(const Workload& work, const ResolvedParameters& parameters, do
     Seconds seconds = around(work);
     seconds += method(work, parameters);
     const double row = kPosition + work.row_bytes;
-    const double document = row * work.points + 12 * work.faces;
-    const double decoding = work.file_bytes + document + work.file_bytes;
+    const double document = document_bytes(work);
+    const double decoding = work.file_bytes + document + work.file_bytes + apart_bytes(work);
     const double measuring = document + kTreePoint * work.points;
     const double working = document + method_bytes(work, parameters);
-    const double writing = document + 3 * row * work.output_points + work.fields * (kField + 24.0);
+    const double writing =
+        document + 3 * row * work.output_points + work.fields * (kField + 24.0) + apart_bytes(work);
     return {
         .seconds = (seconds.alone + seconds.shared / std::max(1, threads)) / speed,
         .memory_bytes = kJobBytes + kSafety * std::max({decoding, measuring, working, writing})};
+}
+
+double document_bytes(const Workload& work) {
+    return (kPosition + work.row_bytes) * work.points + kFace * work.faces;
+}
+
+double apart_bytes(const Workload& work) {
+    if (!work.decoded_apart) return 0;
+    return kApartOnce + (kApartPoint + work.row_bytes) * std::max(work.points, work.output_points) +
+           kApartFace * work.faces;
 }
 
 double attribute_row_bytes(const PointCloud& cloud) {

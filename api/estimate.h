@@ -37,6 +37,12 @@ struct Estimate {
 [[nodiscard]] Estimate estimate(const Workload& work, const ResolvedParameters& parameters,
                                 double speed, int threads);
 
+/// A decoded file with its attributes [bytes].
+[[nodiscard]] double document_bytes(const Workload& work);
+
+/// What a decoder or encoder of its own process takes besides [bytes].
+[[nodiscard]] double apart_bytes(const Workload& work);
+
 /// Bytes of the attributes in a row of points.
 [[nodiscard]] double attribute_row_bytes(const PointCloud& cloud);
 

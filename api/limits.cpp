@@ -55,6 +55,10 @@ constexpr LimitField kLimits[] = {
     {"jobSeconds", "s", "Time that a job may run.", &Limits::job_seconds},
     {"jobAttempts", "attempts", "Times that a job is started before it is given up.",
      &Limits::job_attempts},
+    {"memoryBytes", "bytes",
+     "Memory of all running jobs together, as estimated; 0 chooses from the memory of the machine "
+     "or the container.",
+     &Limits::memory_bytes},
     {"waitSeconds", "s", "Longest wait that a request may ask for.", &Limits::wait_seconds},
     {"pageItems", "items", "Items on one page of a list.", &Limits::page_items},
     {"patternPoints", "points", "Points of a pattern, M.", &Limits::pattern_points},

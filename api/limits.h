@@ -46,6 +46,7 @@ struct Limits {
     std::uint64_t small_job_points = 100'000;
     std::uint64_t job_seconds = 3600;
     std::uint64_t job_attempts = 3;
+    std::uint64_t memory_bytes = 0;  ///< of all jobs; 0: chosen from the memory there is
     std::uint64_t wait_seconds = 60;
     std::uint64_t page_items = 1000;
 

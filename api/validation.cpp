@@ -33,18 +33,14 @@ class Foresight {
 public:
     Foresight(const Validation& validation, const OddPoints& odd) : v_(validation), odd_(odd) {}
 
-    std::vector<Warning> about(const std::vector<std::string>& rules, double seconds_allowed) {
+    std::vector<Warning> about(const std::vector<std::string>& rules, const Allowance& allowed) {
         radius();
         if (warnings_.empty())
             for (const std::string& rule : rules) warn("parameters", rule);
         size();
         odd_points();
         options();
-        if (v_.estimate.seconds > seconds_allowed) {
-            warn("too-long",
-                 text("The job would take about ", v_.estimate.seconds, " s; it is allowed ",
-                      seconds_allowed, " s. Ask for less: a larger radius, fewer iterations."));
-        }
+        limits(allowed);
         return std::move(warnings_);
     }
 
@@ -112,6 +108,21 @@ private:
             warn("unused-input", "dictionaryMode has no effect without a dictionary.");
     }
 
+    void limits(const Allowance& allowed) {
+        if (v_.estimate.seconds > allowed.seconds) {
+            warn("too-long",
+                 text("The job would take about ", v_.estimate.seconds, " s; it is allowed ",
+                      allowed.seconds, " s. Ask for less: a larger radius, fewer iterations."));
+        }
+        if (allowed.memory_bytes > 0 && v_.estimate.memory_bytes > allowed.memory_bytes) {
+            warn("too-large",
+                 text("The job would need about ", std::ceil(v_.estimate.memory_bytes / (1 << 20)),
+                      " MiB of memory; all jobs together may use ",
+                      std::floor(allowed.memory_bytes / (1 << 20)),
+                      " MiB (memoryBytes). It would be refused."));
+        }
+    }
+
     const Validation& v_;
     const OddPoints& odd_;
     std::vector<Warning> warnings_;
@@ -157,8 +168,8 @@ std::uint32_t NeighbourCounts::quantile(double share) const {
 }
 
 std::vector<Warning> foresee(const Validation& validation, const OddPoints& odd,
-                             const std::vector<std::string>& rules, double seconds_allowed) {
-    return Foresight(validation, odd).about(rules, seconds_allowed);
+                             const std::vector<std::string>& rules, const Allowance& allowed) {
+    return Foresight(validation, odd).about(rules, allowed);
 }
 
 json to_json(const Validation& v) {

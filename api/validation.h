@@ -49,12 +49,17 @@ struct OddPoints {
     bool has_normals = false;
 };
 
+/// What a job may take.
+struct Allowance {
+    double seconds = 0;
+    double memory_bytes = 0;  ///< 0: any amount
+};
+
 /// What the user should know before the job runs.
 /// @param rules what the rules of the parameters warn of
-/// @param seconds_allowed of the job
 [[nodiscard]] std::vector<Warning> foresee(const Validation& validation, const OddPoints& odd,
                                            const std::vector<std::string>& rules,
-                                           double seconds_allowed);
+                                           const Allowance& allowed);
 
 [[nodiscard]] nlohmann::json to_json(const Validation& validation);
 

@@ -33,6 +33,7 @@ QueueOptions queue_options(const Config& config) {
     options.limits = {limits.queued_jobs, limits.queued_jobs_per_key};
     options.small_points = limits.small_job_points;
     options.running_per_owner = limits.running_jobs_per_key;
+    options.memory = limits.memory_bytes;
     options.leases = {millis(config.lease_seconds), millis(config.sweep_seconds),
                       limits.job_attempts};
     options.job_seconds = static_cast<double>(limits.job_seconds);

@@ -168,10 +168,11 @@ Config resolve_threads(Config config, int cores) {
 
 Config resolve_memory(Config config, std::uint64_t usable) {
     constexpr std::uint64_t kServer = 256ULL << 20;
-    if (config.memory_budget == 0) {
-        const std::uint64_t rest = usable > kServer ? usable - kServer : 0;
-        config.memory_budget = std::max(usable / 4, std::min(usable / 4 * 3, rest));
-    }
+    constexpr std::uint64_t kIdle = 64ULL << 20;
+    const auto without = [&](std::uint64_t part) { return usable - std::min(usable, part); };
+    std::uint64_t& budget = config.limits.memory_bytes;
+    if (budget == 0) budget = std::max(usable / 4, std::min(usable / 4 * 3, without(kServer)));
+    config.decoding_bytes = std::max(without(budget + kIdle), kIdle);
     return config;
 }
 

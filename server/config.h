@@ -29,7 +29,7 @@ struct Config {
     std::filesystem::path api_key_file;        ///< empty: everybody may use the service
     std::vector<std::string> cors_origins;     ///< pages that may use it; "*": all of them
     std::vector<std::string> trusted_proxies;  ///< addresses whose X-Forwarded-For is believed
-    std::uint64_t memory_budget = 0;           ///< bytes for all jobs; 0 = chosen from the memory
+    std::uint64_t decoding_bytes = 0;  ///< for files that requests decode; no flag: what jobs leave
     Limits limits = {};
     bool health_check = false;  ///< only ask a running server whether it is healthy
     std::string hash_key;       ///< only print the line of the key file for this name
@@ -47,7 +47,8 @@ struct CommandLine {
 /// Fills in what was left to be chosen, so that jobs x threads never exceeds the cores.
 [[nodiscard]] Config resolve_threads(Config config, int cores);
 
-/// Chooses the budget of the jobs, so that what the server itself needs is left.
+/// Chooses the budget of the jobs (Limits::memory_bytes), so that what the server itself needs is
+/// left.
 [[nodiscard]] Config resolve_memory(Config config, std::uint64_t usable);
 
 /// Flag of a limit: "uploadBytes" -> "--max-upload-bytes"; empty if it is no flag.

@@ -2,6 +2,7 @@
 
 #include "api/codec/summary.h"
 #include "api/http_text.h"
+#include "api/memory_need.h"
 #include "api/problem.h"
 #include "core/base/error.h"
 #include "core/shape/noise.h"
@@ -136,8 +137,9 @@ std::optional<double> measured_spacing(const FileSummary& summary) {
 
 /// What the file holds, in little memory; throws if it cannot be read.
 ShapeInfo inspect(Services& services, BlobWriter& file) {
-    const DecoderSeat seat(services);
     const MappedFile content(file.staged());
+    const DecodingRoom::Seat seat(services.decoding,
+                                  summary_bytes(content.bytes(), services.limits()));
     FileSummary summary = summarize(
         content.bytes(), decode_limits(services.limits()),
         {.most_sampled = kMeasuredPoints, .passed = [&](std::size_t n) { content.let_go(n); }});

@@ -26,6 +26,7 @@ struct QueueOptions {
     QueueLimits limits = {};
     std::uint64_t small_points = 100'000;  ///< jobs up to this size are small
     std::uint64_t running_per_owner = 0;   ///< 0: any number
+    std::uint64_t memory = 0;              ///< of all running jobs [bytes]; 0: any amount
     LeaseOptions leases = {};
     double job_seconds = 3600;
     UnixMillis result_retention = 7LL * 24 * 3600 * 1000;
@@ -75,6 +76,7 @@ public:
 private:
     void work_until_stopped();
     [[nodiscard]] RunningJobs::Pointer claim();
+    [[nodiscard]] std::optional<std::uint64_t> memory_free() const;
     void run(RunningJob& job);
     void run_guarded(RunningJob& job);
     void end_stopped(RunningJob& job);

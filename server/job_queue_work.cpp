@@ -1,7 +1,9 @@
 // The part of JobQueue that the workers run: from the claim of a job to its end in the store.
 #include <algorithm>
 
+#include "api/memory_need.h"
 #include "api/parameters.h"
+#include "server/cores.h"
 #include "server/job_endings.h"
 #include "server/job_queue.h"
 
@@ -33,6 +35,14 @@ void JobQueue::work_until_stopped() {
     }
 }
 
+/// Memory that no running job may take. A job that is alone always starts: if it was accepted under
+/// a larger budget it is refused then, and does not wait for ever.
+std::optional<std::uint64_t> JobQueue::memory_free() const {
+    if (options_.memory == 0 || running_.all().empty()) return std::nullopt;
+    const std::uint64_t taken = running_.memory();
+    return options_.memory - std::min(taken, options_.memory);
+}
+
 RunningJobs::Pointer JobQueue::claim() {
     const std::lock_guard lock(claim_mutex_);
     // One worker, if there are several, is kept for small jobs.
@@ -44,7 +54,9 @@ RunningJobs::Pointer JobQueue::claim() {
                                     .lease_until = leases_.until(now),
                                     .rules = {.small_only = workers > 1 && large + 1 >= workers,
                                               .small_points = options_.small_points,
-                                              .running_per_owner = options_.running_per_owner}});
+                                              .running_per_owner = options_.running_per_owner,
+                                              .memory_free = memory_free(),
+                                              .now = now}});
     if (!claim) return nullptr;
     const double asked = claim->info.parameters.max_seconds.value_or(options_.job_seconds);
     auto job =
@@ -69,12 +81,15 @@ void JobQueue::run(RunningJob& job) {
         log_.error("job-not-stored", {{"job", id}, {"error", error.what()}});
     }
     running_.remove(job);
+    return_freed_memory();
     tell_waiters();
+    queue_grew();  // jobs may have waited for the memory
 }
 
 void JobQueue::run_guarded(RunningJob& job) {
     std::exception_ptr exception;
     try {
+        if (options_.memory > 0) require_memory(static_cast<double>(job.memory()), options_.memory);
         const JobOutcome outcome = work_(job);
         if (!job.stop_reason()) {
             finish(job, succeeded(job.info(), now_millis(), options_.result_retention), outcome);

@@ -33,6 +33,7 @@ struct NewJob {
     StatusInfo info;
     std::string owner = {};    ///< name of the API key that sent it, or empty
     std::uint64_t points = 0;  ///< of its shape
+    std::uint64_t memory = 0;  ///< that it may take [bytes]
     std::optional<RequestMark> mark = {};
 };
 
@@ -59,6 +60,7 @@ struct ClaimedJob {
     StatusInfo info;
     Lease lease;
     std::uint64_t points = 0;  ///< of its shape
+    std::uint64_t memory = 0;  ///< that it may take [bytes]
     UnixMillis lease_until = 0;
 };
 

@@ -49,7 +49,7 @@ void run(const Config& config, Log& log) {
     std::cout << ready.dump() << std::endl;
     log.info("started", {{"jobs", config.jobs},
                          {"threads", config.threads},
-                         {"memoryBudget", static_cast<std::int64_t>(config.memory_budget)}});
+                         {"memoryBudget", static_cast<std::int64_t>(config.limits.memory_bytes)}});
 
     int signal = SIGHUP;
     while (sigwait(&signals, &signal) == 0 && signal == SIGHUP) app.reload();

@@ -12,6 +12,7 @@ constexpr double kFarAway = 1e8;  // seconds; keeps the deadline within the cloc
 RunningJob::RunningJob(ClaimedJob claim, double seconds_allowed)
     : lease_(std::move(claim.lease)),
       points_(claim.points),
+      memory_(claim.memory),
       lease_until_(claim.lease_until),
       deadline_(started_ + std::chrono::duration_cast<Clock::duration>(
                                std::chrono::duration<double>(std::min(seconds_allowed, kFarAway)))),

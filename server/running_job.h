@@ -32,6 +32,7 @@ public:
 
     [[nodiscard]] const Lease& lease() const { return lease_; }
     [[nodiscard]] std::uint64_t points() const { return points_; }  ///< of its shape
+    [[nodiscard]] std::uint64_t memory() const { return memory_; }  ///< that it may take [bytes]
     [[nodiscard]] StatusInfo info() const;
     [[nodiscard]] std::stop_token stop_token() const { return stop_.get_token(); }
     [[nodiscard]] UnixMillis lease_until() const { return lease_until_; }
@@ -71,6 +72,7 @@ private:
 
     Lease lease_;
     std::uint64_t points_;
+    std::uint64_t memory_;
     std::atomic<UnixMillis> lease_until_;
     std::atomic<bool> ending_ = false;
     Clock::time_point started_ = Clock::now();

@@ -35,4 +35,11 @@ std::size_t RunningJobs::count_larger_than(std::uint64_t points) const {
         jobs_, [&](const auto& entry) { return entry.second->points() > points; }));
 }
 
+std::uint64_t RunningJobs::memory() const {
+    const std::lock_guard lock(mutex_);
+    std::uint64_t sum = 0;
+    for (const auto& [token, job] : jobs_) sum += job->memory();
+    return sum;
+}
+
 }  // namespace lpf::server

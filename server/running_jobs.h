@@ -23,6 +23,8 @@ public:
     /// then it is the later one.
     [[nodiscard]] Pointer find(const std::string& job_id) const;
     [[nodiscard]] std::size_t count_larger_than(std::uint64_t points) const;
+    /// That all of them together may take [bytes].
+    [[nodiscard]] std::uint64_t memory() const;
 
 private:
     mutable std::mutex mutex_;

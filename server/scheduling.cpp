@@ -35,14 +35,20 @@ std::vector<WaitingJob> in_turn(std::vector<WaitingJob> jobs, const Owners& owne
 
 const WaitingJob* next_turn(const std::vector<WaitingJob>& jobs, const Owners& owners,
                             const TurnRules& rules) {
-    const auto may_start = [&](const WaitingJob& job) {
-        if (rules.small_only && job.points > rules.small_points) return false;
+    const auto owner_may = [&](const WaitingJob& job) {
         if (job.owner.empty() || rules.running_per_owner == 0) return true;
         const auto owner = owners.find(job.owner);
         return owner == owners.end() || owner->second.running < rules.running_per_owner;
     };
-    const auto found = std::ranges::find_if(jobs, may_start);
-    return found == jobs.end() ? nullptr : &*found;
+    for (const WaitingJob& job : jobs) {
+        if (!owner_may(job)) continue;
+        if (rules.memory_free && job.memory > *rules.memory_free) {
+            if (job.rank <= rules.now) return nullptr;
+            continue;
+        }
+        if (!rules.small_only || job.points <= rules.small_points) return &job;
+    }
+    return nullptr;
 }
 
 std::vector<double> start_times(std::vector<double> busy, const std::vector<double>& seconds) {

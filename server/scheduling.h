@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct WaitingJob {
     Task process = Task::Denoise;
     std::uint64_t points = 0;  ///< of its shape
     UnixMillis rank = 0;       ///< see rank_of
+    std::uint64_t memory = 0;  ///< that it may take [bytes]
 };
 
 /// What an owner of jobs has had so far.
@@ -38,12 +40,15 @@ using Owners = std::map<std::string, OwnerState>;
 
 /// What a worker may take.
 struct TurnRules {
-    bool small_only = false;              ///< the other workers are busy with large jobs
-    std::uint64_t small_points = 0;       ///< jobs up to this size are small
-    std::uint64_t running_per_owner = 0;  ///< 0: any number; no limit for the empty owner
+    bool small_only = false;                        ///< the other workers are busy with large jobs
+    std::uint64_t small_points = 0;                 ///< jobs up to this size are small
+    std::uint64_t running_per_owner = 0;            ///< 0: any number; no limit for the empty owner
+    std::optional<std::uint64_t> memory_free = {};  ///< [bytes]; nothing: every job fits
+    UnixMillis now = 0;
 };
 
-/// The first of the jobs that may start now, or null.
+/// The first of the jobs that may start now, or null. A job that finds too little memory is passed
+/// by others until its rank is reached; from then on they wait with it, so that its time comes.
 /// @param jobs as in_turn gave them
 [[nodiscard]] const WaitingJob* next_turn(const std::vector<WaitingJob>& jobs, const Owners& owners,
                                           const TurnRules& rules);

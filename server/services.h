@@ -1,11 +1,11 @@
 #pragma once
 
-#include <semaphore>
 #include <string>
 
 #include "server/clock.h"
 #include "server/config.h"
 #include "server/data_dir.h"
+#include "server/decoding_room.h"
 #include "server/idempotency.h"
 #include "server/job_events.h"
 #include "server/job_queue.h"
@@ -27,9 +27,7 @@ struct Services {
     Log& log;
     Telemetry& telemetry;
 
-    /// Seats for the decoding of files within requests: each may need much memory.
-    static constexpr int kDecoders = 2;
-    std::counting_semaphore<kDecoders> decoders{kDecoders};
+    DecodingRoom decoding{config.decoding_bytes};
 
     RequestsInFlight in_flight{};
 
@@ -37,18 +35,6 @@ struct Services {
     [[nodiscard]] UnixMillis result_retention() const {
         return static_cast<UnixMillis>(config.limits.result_retention_seconds) * 1000;
     }
-};
-
-/// Holds one of the decoders' seats.
-class DecoderSeat {
-public:
-    explicit DecoderSeat(Services& services) : services_(services) { services_.decoders.acquire(); }
-    ~DecoderSeat() { services_.decoders.release(); }
-    DecoderSeat(const DecoderSeat&) = delete;
-    DecoderSeat& operator=(const DecoderSeat&) = delete;
-
-private:
-    Services& services_;
 };
 
 }  // namespace lpf::server

@@ -95,10 +95,11 @@ void SqliteJobStore::add_job(const NewJob& job, const QueueLimits& limits) {
         }
         db.run(
             "INSERT INTO jobs (id, process, status, shape, created, expires, document, owner, "
-            "points, rank, retry_of) VALUES (?, ?, 'accepted', ?, ?, ?, '', ?, ?, ?, ?)",
+            "points, rank, memory, retry_of) "
+            "VALUES (?, ?, 'accepted', ?, ?, ?, '', ?, ?, ?, ?, ?)",
             {info.job_id, std::string(process_id(info.process)), info.shape, info.created,
              optional_time(info.expires), job.owner, number(job.points),
-             rank_of(info.created, job.points),
+             rank_of(info.created, job.points), number(job.memory),
              info.retry_of ? SqlValue(*info.retry_of) : SqlValue(nullptr)});
         write_job(db, info);
         if (job.mark) add_request(db, job);
@@ -132,8 +133,11 @@ std::optional<ClaimedJob> SqliteJobStore::claim_next(const ClaimRequest& request
         const std::vector<WaitingJob> waiting = in_turn(read_waiting(db), owners);
         const WaitingJob* next = next_turn(waiting, owners, request.rules);
         if (!next) return std::nullopt;
-        ClaimedJob claim{
-            *read_job(db, next->id), {next->id, new_id()}, next->points, request.lease_until};
+        ClaimedJob claim{.info = *read_job(db, next->id),
+                         .lease = {next->id, new_id()},
+                         .points = next->points,
+                         .memory = next->memory,
+                         .lease_until = request.lease_until};
         claim.info.status = JobStatus::Running;
         claim.info.message = "Running.";
         claim.info.started = request.now;

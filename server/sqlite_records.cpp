@@ -88,13 +88,14 @@ std::optional<ShapeInfo> read_shape(SqliteDatabase& db, const std::string& where
 std::vector<WaitingJob> read_waiting(SqliteDatabase& db) {
     std::vector<WaitingJob> jobs;
     auto rows = db.query(
-        "SELECT id, owner, process, points, rank FROM jobs WHERE status = 'accepted' "
+        "SELECT id, owner, process, points, rank, memory FROM jobs WHERE status = 'accepted' "
         "ORDER BY number");
     while (rows.next()) {
         const auto task = task_from_id(rows.text(2));
         if (!task) damaged();
         jobs.push_back({rows.text(0), rows.text(1), *task,
-                        static_cast<std::uint64_t>(rows.integer(3)), rows.integer(4)});
+                        static_cast<std::uint64_t>(rows.integer(3)), rows.integer(4),
+                        static_cast<std::uint64_t>(rows.integer(5))});
     }
     return jobs;
 }

@@ -78,7 +78,14 @@ CREATE TABLE requests (
 CREATE INDEX requests_by_job ON requests (job_id);
 )sql";
 
-constexpr std::array kSteps{kVersion1, kVersion2};
+// What a job may take. That of a job of version 2 is not known, and not waited for.
+constexpr const char* kVersion3 = R"sql(
+ALTER TABLE jobs ADD COLUMN memory INTEGER NOT NULL DEFAULT 0;     -- bytes
+DROP INDEX jobs_by_status;
+CREATE INDEX jobs_by_status ON jobs (status, number, owner, points, rank, memory);
+)sql";
+
+constexpr std::array kSteps{kVersion1, kVersion2, kVersion3};
 constexpr auto kNewest = static_cast<std::int64_t>(kSteps.size());
 
 void require_whole(SqliteDatabase& db) {

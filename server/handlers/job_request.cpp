@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "server/admission.h"
 #include "server/answer.h"
 #include "server/ids.h"
 #include "server/ingest.h"
@@ -37,8 +38,12 @@ std::optional<std::string> JobRequest::made_before(const std::string& body_diges
 
 void JobRequest::submit(StatusInfo job, const ShapeInfo& shape) {
     const std::string id = job.job_id;
-    services_.queue.submit(
-        {.info = std::move(job), .owner = request_.key, .points = shape.points, .mark = mark_});
+    const std::uint64_t memory = memory_for_job(services_, request_, job, shape);
+    services_.queue.submit({.info = std::move(job),
+                            .owner = request_.key,
+                            .points = shape.points,
+                            .memory = memory,
+                            .mark = mark_});
     seat_.reset();  // from now on the books know the answer
     services_.log.info("job-accepted", {{"job", id}, {"request", request_.id}});
 }

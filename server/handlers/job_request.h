@@ -17,7 +17,7 @@ public:
     /// @throws ProblemException{IdempotencyMismatch} if another request had this key
     [[nodiscard]] std::optional<std::string> made_before(const std::string& body_digest);
 
-    /// Makes the job durable. @throws as JobQueue::submit
+    /// Makes the job durable. @throws as JobQueue::submit and memory_for_job
     void submit(StatusInfo job, const ShapeInfo& shape);
 
 private:

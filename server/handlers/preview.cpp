@@ -3,6 +3,7 @@
 
 #include <sstream>
 
+#include "api/memory_need.h"
 #include "server/answer.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/lookup.h"
@@ -54,7 +55,8 @@ std::string make_preview(Services& services, const Source& source, std::size_t m
     if (sniff(file.bytes()) != FileFormat::Draco) {
         if (const auto sample = sample_rows(file.bytes(), most)) return encode_preview(*sample);
     }
-    const DecoderSeat seat(services);
+    const DecodingRoom::Seat seat(services.decoding,
+                                  decoding_bytes(file.bytes(), services.limits()));
     DecodeLimits limits = decode_limits(services.limits());
     if (source.own) {
         limits.max_points = limits.max_faces = UINT32_MAX;

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "api/http_text.h"
+#include "api/memory_need.h"
 #include "core/shape/noise.h"
 #include "server/answer.h"
 #include "server/handlers/handlers.h"
@@ -57,8 +58,9 @@ int bits_for(const Points& points, const JobInputs& inputs) {
 
 std::string convert(Services& services, const ResultFile& stored, FileFormat format,
                     const JobInputs& inputs) {
-    const DecoderSeat seat(services);
     const MappedFile file(services.storage.blobs().local_file(stored.sha256));
+    const DecodingRoom::Seat seat(services.decoding,
+                                  2 * decoding_bytes(file.bytes(), services.limits()));
     DecodeLimits own_file;  // written here: it may be larger than what strangers may send
     own_file.max_points = own_file.max_faces = UINT32_MAX;
     own_file.decode_helper.clear();

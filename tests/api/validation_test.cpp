@@ -30,7 +30,8 @@ Validation fine() {
 std::vector<std::string> codes(const Validation& v, const OddPoints& odd = {},
                                const std::vector<std::string>& rules = {}) {
     std::vector<std::string> result;
-    for (const Warning& warning : foresee(v, odd, rules, 100)) result.push_back(warning.code);
+    for (const Warning& warning : foresee(v, odd, rules, {100, 1e9}))
+        result.push_back(warning.code);
     return result;
 }
 
@@ -84,6 +85,12 @@ TEST(Validation, WarnsOfAJobThatMayNotTakeSoLong) {
     Validation v = fine();
     v.estimate.seconds = 101;
     EXPECT_EQ(codes(v), Codes{"too-long"});
+}
+
+TEST(Validation, WarnsOfAJobThatWouldBeRefusedForItsMemory) {
+    Validation v = fine();
+    v.estimate.memory_bytes = 1e9 + 1;
+    EXPECT_EQ(codes(v), Codes{"too-large"});
 }
 
 TEST(Validation, CountsNeighboursInBinsThatDouble) {

@@ -132,12 +132,20 @@ INSTANTIATE_TEST_SUITE_P(All, ThreadSharing,
 
 TEST(Config, TheMemoryBudgetLeavesRoomForTheServerItself) {
     constexpr std::uint64_t kMib = 1ULL << 20;
-    EXPECT_EQ(resolve_memory({}, 512 * kMib).memory_budget, 256 * kMib);
-    EXPECT_EQ(resolve_memory({}, 8192 * kMib).memory_budget, 6144 * kMib);
-    EXPECT_EQ(resolve_memory({}, 128 * kMib).memory_budget, 32 * kMib);
+    EXPECT_EQ(resolve_memory({}, 512 * kMib).limits.memory_bytes, 256 * kMib);
+    EXPECT_EQ(resolve_memory({}, 8192 * kMib).limits.memory_bytes, 6144 * kMib);
+    EXPECT_EQ(resolve_memory({}, 128 * kMib).limits.memory_bytes, 32 * kMib);
     Config chosen;
-    chosen.memory_budget = 5 * kMib;
-    EXPECT_EQ(resolve_memory(chosen, 512 * kMib).memory_budget, 5 * kMib);
+    chosen.limits.memory_bytes = 5 * kMib;
+    EXPECT_EQ(resolve_memory(chosen, 512 * kMib).limits.memory_bytes, 5 * kMib);
+}
+
+TEST(Config, RequestsDecodeInTheMemoryThatJobsLeave) {
+    constexpr std::uint64_t kMib = 1ULL << 20;
+    EXPECT_EQ(resolve_memory({}, 512 * kMib).decoding_bytes, 192 * kMib);
+    Config greedy;
+    greedy.limits.memory_bytes = 1024 * kMib;
+    EXPECT_EQ(resolve_memory(greedy, 512 * kMib).decoding_bytes, 64 * kMib);
 }
 
 }  // namespace

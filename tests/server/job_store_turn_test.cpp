@@ -75,6 +75,16 @@ TEST_P(JobStoreTurns, AWorkerForSmallJobsLeavesLargeOnes) {
     EXPECT_EQ(claimed_id(), large);
 }
 
+TEST_P(JobStoreTurns, AJobIsClaimedWhenItsMemoryIsFree) {
+    NewJob job = new_job();
+    job.memory = 1ULL << 40;
+    store_->add_job(job, {});
+    EXPECT_EQ(claimed_id({.memory_free = (1ULL << 40) - 1}), "");
+    const auto claimed = claim(kNow, {.memory_free = 1ULL << 40});
+    ASSERT_TRUE(claimed);
+    EXPECT_EQ(claimed->memory, 1ULL << 40);
+}
+
 TEST_P(JobStoreTurns, AFullQueueTakesNoJob) {
     const NewJob first = new_job();
     const NewJob second = new_job();

@@ -39,6 +39,32 @@ TEST(Scheduling, WhoeverWasServedLongestAgoComesFirst) {
     EXPECT_EQ(order({job("a", "x", 1), job("b", "y", 9)}, {{"x", {0, 7}}, {"y", {0, 3}}}), "ba");
 }
 
+std::string next(const std::vector<WaitingJob>& jobs, const TurnRules& rules) {
+    const WaitingJob* found = next_turn(jobs, {}, rules);
+    return found ? found->id : "";
+}
+
+TEST(Scheduling, AJobThatFindsTooLittleMemoryIsPassedUntilItsRankIsReached) {
+    WaitingJob large = job("large", "", 1000);
+    large.memory = 80;
+    WaitingJob small = job("small", "", 2000);
+    small.memory = 20;
+    EXPECT_EQ(next({large, small}, {}), "large");
+    EXPECT_EQ(next({large, small}, {.memory_free = 80, .now = 500}), "large");
+    EXPECT_EQ(next({large, small}, {.memory_free = 50, .now = 500}), "small");
+    EXPECT_EQ(next({large, small}, {.memory_free = 50, .now = 1000}), "");
+    EXPECT_EQ(next({small}, {.memory_free = 10, .now = 500}), "");
+}
+
+TEST(Scheduling, AWorkerForSmallJobsWaitsWithALargeOneThatLacksMemory) {
+    WaitingJob large = job("large", "", 1000);
+    large.memory = 80;
+    const WaitingJob small = job("small", "", 2000);
+    const TurnRules rules{.small_only = true, .small_points = 5, .memory_free = 50, .now = 1000};
+    large.points = 1000;
+    EXPECT_EQ(next({large, small}, rules), "");
+}
+
 TEST(Scheduling, EachJobStartsWhenAWorkerIsFree) {
     EXPECT_EQ(start_times({4, 1}, {10, 2, 3}), (std::vector<double>{1, 4, 6}));
     EXPECT_EQ(start_times({0}, {5, 5}), (std::vector<double>{0, 5}));

@@ -67,7 +67,7 @@ TEST_F(SqliteFile, AFileThatIsUpToDateStaysAsItIs) {
     { const SqliteJobStore store(file_); }
     const SqliteJobStore store(file_);
     EXPECT_EQ(store.list_jobs({}).jobs.size(), 3U);
-    EXPECT_EQ(SqliteDatabase(file_, SqliteDatabase::Mode::ReadOnly).user_version(), 2);
+    EXPECT_EQ(SqliteDatabase(file_, SqliteDatabase::Mode::ReadOnly).user_version(), 3);
 }
 
 TEST_F(SqliteFile, AFileOfANewerProgramIsRefusedAndLeftAlone) {

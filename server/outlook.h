@@ -1,0 +1,45 @@
+#pragma once
+
+#include "api/codec/document.h"
+#include "api/estimate.h"
+#include "server/examination.h"
+#include "server/http/message.h"
+#include "server/services.h"
+
+namespace lpf::server {
+
+/// Ends work within a request when nobody waits for its outcome any more, or it takes too long.
+class Patience {
+public:
+    explicit Patience(const http::Request& request);
+
+    [[nodiscard]] Execution execution() const { return {.threads = 1, .stop = stop_.get_token()}; }
+
+private:
+    std::stop_source stop_;
+    std::jthread thread_;  // last: it uses the source, and is joined first
+};
+
+/// What is asked of a shape.
+struct Question {
+    Task task = Task::Denoise;
+    const JobInputs& inputs;
+    std::uint64_t file_bytes = 0;
+};
+
+/// What is foreseen of a job by a look at its shape, or at parts of a large one.
+struct Outlook {
+    double examined_share = 1;  ///< of the points
+    Measurements measurements;
+    ResolvedParameters parameters;
+    Findings found;
+    Workload work;
+    Estimate estimate;
+};
+
+/// @throws ProblemException{TimedOut} when patience has come to its end, {DictionaryNotFound};
+/// Error{InvalidParameter, ...} as the job would
+[[nodiscard]] Outlook look_ahead(Services& services, const Question& question,
+                                 const Document& document, const Patience& patience);
+
+}  // namespace lpf::server
