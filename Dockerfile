@@ -7,10 +7,11 @@ RUN apt-get update \
     && DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends \
         g++ cmake ninja-build pkg-config libeigen3-dev libnanoflann-dev libdraco-dev \
         nlohmann-json3-dev libcpp-httplib-dev libssl-dev zlib1g-dev libsqlite3-dev libcli11-dev \
-        libseccomp-dev nodejs npm \
+        libseccomp-dev nodejs npm python3-pytest python3-requests python3-jsonschema \
+        python3-prometheus-client \
     && rm -rf /var/lib/apt/lists/*
 WORKDIR /source
-COPY CMakeLists.txt CMakePresets.json ./
+COPY CMakeLists.txt CMakePresets.json LICENSE ./
 COPY cmake cmake
 COPY core core
 COPY api api
@@ -18,14 +19,25 @@ COPY server server
 COPY client-examples client-examples
 RUN cmake --preset release -DLPF_BUILD_TESTS=OFF \
     && cmake --build --preset release --target lpf-server lpf-decode web \
-    && strip build/release/bin/lpf-server build/release/bin/lpf-decode \
-    && build/release/bin/lpf-server --version
+    && cmake --install build/release --component server --strip --prefix /opt/lpf
 # The packages of the libraries that the programs are linked with, found by the programs themselves.
-RUN ldd build/release/bin/lpf-server build/release/bin/lpf-decode \
+RUN ldd /opt/lpf/bin/* \
     | awk '$3 ~ /^\// {print $3}' | sort -u | xargs -r -n1 readlink -f \
-    | xargs -r -n1 dpkg-query -S | cut -d: -f1 | sort -u > /source/packages
+    | xargs -r -n1 dpkg-query -S | cut -d: -f1 | sort -u > /opt/packages
+# A faulty server gets no image.
+COPY tests/e2e tests/e2e
+RUN LPF_SERVER_BINARY=/opt/lpf/bin/lpf-server python3 -m pytest -q -p no:cacheprovider \
+        tests/e2e/test_service.py tests/e2e/test_processes.py
 
 FROM ${BASE_IMAGE}
+COPY --from=build /opt/packages /tmp/packages
+RUN apt-get update \
+    && DEBIAN_FRONTEND=noninteractive xargs -a /tmp/packages \
+        apt-get install -y --no-install-recommends \
+    && rm -rf /var/lib/apt/lists/* /var/cache/* /var/log/* /tmp/packages \
+    && mkdir -p /var/lib/lpf && chown 65532:65532 /var/lib/lpf
+# The decoder lies beside the server, which looks for it there.
+COPY --from=build /opt/lpf/ /usr/local/
 ARG VERSION=unknown
 ARG COMMIT=unknown
 LABEL org.opencontainers.image.title="LPF Server" \
@@ -33,16 +45,6 @@ LABEL org.opencontainers.image.title="LPF Server" \
       org.opencontainers.image.licenses="Apache-2.0" \
       org.opencontainers.image.version="${VERSION}" \
       org.opencontainers.image.revision="${COMMIT}"
-COPY --from=build /source/packages /tmp/packages
-RUN apt-get update \
-    && DEBIAN_FRONTEND=noninteractive xargs -a /tmp/packages \
-        apt-get install -y --no-install-recommends \
-    && rm -rf /var/lib/apt/lists/* /var/cache/* /var/log/* /tmp/packages \
-    && mkdir -p /var/lib/lpf && chown 65532:65532 /var/lib/lpf
-# The decoder lies beside the server, which looks for it there.
-COPY --from=build /source/build/release/bin/lpf-server /source/build/release/bin/lpf-decode \
-     /usr/local/bin/
-COPY --from=build /source/build/release/share/lpf-server/ /usr/local/share/lpf-server/
 ENV LPF_HOST=0.0.0.0 LPF_DATA_DIR=/var/lib/lpf
 USER 65532:65532
 VOLUME /var/lib/lpf

@@ -102,7 +102,7 @@ def bomb(size):
 
 def memory(server, field="VmHWM"):
     """Resident memory of the server, at its highest since the start unless told otherwise."""
-    with open(f"/proc/{server.process.pid}/status", encoding="ascii") as file:
+    with open(f"/proc/{server.pid}/status", encoding="ascii") as file:
         line = next(line for line in file if line.startswith(field + ":"))
     return int(line.split()[1]) * 1024
 

@@ -1,17 +1,22 @@
-"""The server under test: the one at LPF_URL, or the built binary on an empty folder."""
+"""The server under test: the one at LPF_URL, or one that is started here on an empty folder.
+
+Tests that need a server of their own start the program that program.py names; without one, and with
+LPF_URL alone, they are skipped.
+"""
 
 import os
 
 import pytest
 
+import program
 from contract import Client
 from server import Server
 from shapes import noisy_sphere
 
 
-def needs_binary():
-    if "LPF_SERVER_BINARY" not in os.environ:
-        pytest.skip("needs a server of its own: set LPF_SERVER_BINARY")
+def needs_program():
+    if not program.is_there():
+        pytest.skip("needs a server of its own: set LPF_SERVER_BINARY or LPF_IMAGE")
 
 
 @pytest.fixture(scope="session")
@@ -19,7 +24,7 @@ def client(tmp_path_factory):
     if "LPF_URL" in os.environ:
         yield Client(os.environ["LPF_URL"].rstrip("/"))
         return
-    needs_binary()
+    needs_program()
     with Server(tmp_path_factory.mktemp("data")) as server:
         yield Client(server.url)
 
@@ -27,7 +32,7 @@ def client(tmp_path_factory):
 @pytest.fixture
 def start(tmp_path):
     """Starts servers of the test's own, all on one folder, one after the other."""
-    needs_binary()
+    needs_program()
     servers = []
 
     def make(*flags, log=None):

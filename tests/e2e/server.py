@@ -1,9 +1,9 @@
-"""Starts the built server on free ports, and ends it in the ways that servers end."""
+"""Starts the server on free ports, and ends it in the ways that servers end."""
 
 import json
-import os
 import signal
-import subprocess
+
+import program
 
 
 class Server:
@@ -12,11 +12,10 @@ class Server:
     def __init__(self, folder, *flags, log=None):
         """The log goes to the file `log`, or to where the tests' own errors go."""
         self.log = open(log, "wb") if log else None  # pylint: disable=consider-using-with
-        self.process = subprocess.Popen(
-            [os.environ["LPF_SERVER_BINARY"], "--port", "0", "--admin-port", "0",
-             "--data-dir", str(folder), "--disk-floor-bytes", "0", "--disk-floor-percent", "0",
-             "--log-level", "warn", *flags],
-            stdout=subprocess.PIPE, stderr=self.log, text=True)
+        self.process = program.start(
+            ["--host", "127.0.0.1", "--port", "0", "--admin-port", "0", "--data-dir", str(folder),
+             "--disk-floor-bytes", "0", "--disk-floor-percent", "0", "--log-level", "warn", *flags],
+            self.log)
         line = self.process.stdout.readline()
         if not line:
             raise RuntimeError(f"the server did not start: exit {self.process.wait()}")
@@ -24,6 +23,10 @@ class Server:
         assert ready["event"] == "listening"
         self.url = f"http://127.0.0.1:{ready['port']}"
         self.admin_url = f"http://127.0.0.1:{ready['adminPort']}"
+
+    @property
+    def pid(self):
+        return program.pid(self.process)
 
     def terminate(self):
         """An orderly stop. Returns the exit code."""

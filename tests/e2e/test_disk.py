@@ -8,7 +8,8 @@ import time
 
 import pytest
 
-from conftest import needs_binary
+import program
+from conftest import needs_program
 from contract import Client
 from server import Server
 from shapes import noisy_sphere
@@ -17,7 +18,7 @@ from shapes import noisy_sphere
 @pytest.fixture
 def small_disk(tmp_path):
     """A file system of 16 MiB for a server of the test's own."""
-    needs_binary()
+    needs_program()
     folder = tmp_path / "disk"
     folder.mkdir()
     mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=16m", "tmpfs", str(folder)],
@@ -30,9 +31,7 @@ def small_disk(tmp_path):
 
 def refusal(folder, *flags):
     """What a server says that does not start."""
-    ended = subprocess.run(
-        [os.environ["LPF_SERVER_BINARY"], "--port", "0", "--admin-port", "0", "--data-dir",
-         str(folder), *flags], capture_output=True, text=True, timeout=30, check=False)
+    ended = program.run(["--port", "0", "--admin-port", "0", "--data-dir", str(folder), *flags])
     assert ended.returncode == 1
     return ended.stderr
 

@@ -19,9 +19,9 @@ UPLOAD = 1 << 20  # limit of the server under attack
 
 @pytest.fixture(scope="module")
 def server(tmp_path_factory):
-    from conftest import needs_binary
+    from conftest import needs_program
     from server import Server
-    needs_binary()
+    needs_program()
     with Server(tmp_path_factory.mktemp("hostile"), "--max-upload-bytes", str(UPLOAD),
                 "--max-connections-per-client", "0", "--max-head-seconds", "3") as started:
         yield started
@@ -337,7 +337,7 @@ def test_running_out_of_descriptors_is_survived(start):
     """Connections wait, or are refused, until others end; then all is as before."""
     poor = start("--max-connections-per-client", "0")
     import resource
-    resource.prlimit(poor.process.pid, resource.RLIMIT_NOFILE, (64, 64))
+    resource.prlimit(poor.pid, resource.RLIMIT_NOFILE, (64, 64))
     crowd = []
     for _ in range(100):
         raw = Raw(poor)
@@ -353,7 +353,7 @@ def test_running_out_of_descriptors_is_survived(start):
 
 
 def cpu_seconds(server):
-    with open(f"/proc/{server.process.pid}/stat", encoding="ascii") as file:
+    with open(f"/proc/{server.pid}/stat", encoding="ascii") as file:
         fields = file.read().rpartition(")")[2].split()
     return (int(fields[11]) + int(fields[12])) / 100
 

@@ -13,9 +13,9 @@ SLOW = "?analysisIterations=1000"  # far longer than any test waits
 @pytest.fixture(scope="module")
 def busy(tmp_path_factory):
     """A server of one worker that is occupied, with two jobs waiting behind."""
-    from conftest import needs_binary
+    from conftest import needs_program
     from server import Server
-    needs_binary()
+    needs_program()
     with Server(tmp_path_factory.mktemp("busy"), "--max-queued-jobs", "4") as server:
         client = Client(server.url)
         client.slow = [client.execute("analyze", noisy_sphere(20_000), SLOW).json()

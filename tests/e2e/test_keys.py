@@ -1,13 +1,12 @@
 """API keys: who has none stays outside, and a changed file takes effect without a restart."""
 
-import os
 import signal
-import subprocess
 import time
 
 import pytest
 import requests
 
+import program
 from contract import Client
 from shapes import noisy_sphere
 
@@ -17,8 +16,8 @@ NEXT = "the-key-of-the-next-year"
 
 def line(name, key):
     """The line of a key file, as the server itself makes it."""
-    done = subprocess.run([os.environ["LPF_SERVER_BINARY"], "--hash-key", name], input=key + "\n",
-                          capture_output=True, text=True, check=True, timeout=30)
+    done = program.run(["--hash-key", name], input=key + "\n")
+    assert done.returncode == 0, done.stderr
     return done.stdout
 
 
@@ -109,17 +108,14 @@ def test_a_wrong_key_file_stops_the_start(tmp_path, start):
     for text, part in (("lab\n", "Line 1"), ("", "no key"), ("# x\nlab:abc\n", "Line 2")):
         path = tmp_path / "wrong"
         path.write_text(text)
-        ended = subprocess.run(
-            [os.environ["LPF_SERVER_BINARY"], "--port", "0", "--admin-port", "0", "--data-dir",
-             str(tmp_path / "unused"), "--api-key-file", str(path)],
-            capture_output=True, text=True, timeout=30, check=False)
+        ended = program.run(["--port", "0", "--admin-port", "0", "--data-dir",
+                             str(tmp_path / "unused"), "--api-key-file", str(path)])
         assert ended.returncode != 0
         assert part in ended.stderr
 
 
 def test_weak_keys_get_no_line(start):
     del start
-    ended = subprocess.run([os.environ["LPF_SERVER_BINARY"], "--hash-key", "lab"], input="secret\n",
-                           capture_output=True, text=True, timeout=30, check=False)
+    ended = program.run(["--hash-key", "lab"], input="secret\n")
     assert ended.returncode == 2
     assert "16" in ended.stderr and "secret" not in ended.stdout

@@ -1,11 +1,11 @@
 """How often one client may ask, and who counts as one client."""
 
 import json
-import os
-import subprocess
 import time
 
 import requests
+
+import program
 
 
 def statuses(url, count, method="GET", path="/v1/conformance", **options):
@@ -14,9 +14,8 @@ def statuses(url, count, method="GET", path="/v1/conformance", **options):
 
 
 def keyed(tmp_path, start, *flags):
-    made = subprocess.run([os.environ["LPF_SERVER_BINARY"], "--hash-key", "lab"],
-                          input="correct-horse-battery-staple\n", capture_output=True, text=True,
-                          check=True, timeout=30)
+    made = program.run(["--hash-key", "lab"], input="correct-horse-battery-staple\n")
+    assert made.returncode == 0, made.stderr
     (tmp_path / "keys").write_text(made.stdout)
     server = start("--api-key-file", str(tmp_path / "keys"), *flags)
     return server, {"Authorization": "Bearer correct-horse-battery-staple"}

@@ -18,9 +18,9 @@ COUNT = int(os.environ.get("LPF_MUTATED_UPLOADS", "300"))
 MOST_RESIDENT = 256 << 20
 
 
-def most_resident(process):
+def most_resident(server):
     """Bytes that a process has held in memory at most."""
-    status = Path(f"/proc/{process.pid}/status").read_text()
+    status = Path(f"/proc/{server.pid}/status").read_text()
     line = next(line for line in status.splitlines() if line.startswith("VmHWM:"))
     return int(line.split()[1]) * 1024
 
@@ -38,4 +38,4 @@ def test_damaged_uploads(start):
     assert not mutated_uploads.jobs_with_server_faults(server.url)
     assert server.process.poll() is None
     if os.environ.get("LPF_SANITIZED") is None:
-        assert most_resident(server.process) < MOST_RESIDENT
+        assert most_resident(server) < MOST_RESIDENT

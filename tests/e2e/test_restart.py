@@ -1,15 +1,13 @@
 """Whatever was acknowledged survives the end of the server, however it ends."""
 
-import os
 import random
-import signal
-import subprocess
 import threading
 import time
 
 import pytest
 import requests
 
+import program
 from contract import Client
 from shapes import noisy_sphere, read_ply
 
@@ -102,9 +100,8 @@ def test_a_stop_ends_within_seconds_and_refuses_nothing_half(start):
 
 def test_two_servers_never_share_a_folder(start, tmp_path):
     start()
-    second = subprocess.run([os.environ["LPF_SERVER_BINARY"], "--port", "0", "--admin-port", "0",
-                             "--data-dir", str(tmp_path / "data")],
-                            capture_output=True, text=True, timeout=30, check=False)
+    second = program.run(["--port", "0", "--admin-port", "0", "--data-dir",
+                          str(tmp_path / "data")])
     assert second.returncode == 1
     assert "in use by another server" in second.stderr
 
@@ -112,8 +109,7 @@ def test_two_servers_never_share_a_folder(start, tmp_path):
 def test_health_check_of_the_binary(start):
     server = start()
     port = server.admin_url.rsplit(":", 1)[1]
-    command = [os.environ["LPF_SERVER_BINARY"], "--healthcheck", "--admin-port", port]
-    assert subprocess.run(command, timeout=30, check=False).returncode == 0
-    server.process.send_signal(signal.SIGKILL)
-    server.process.wait()
-    assert subprocess.run(command, timeout=30, check=False).returncode == 1
+    question = ["--healthcheck", "--host", "127.0.0.1", "--admin-port", port]
+    assert program.run(question).returncode == 0
+    server.kill()
+    assert program.run(question).returncode == 1
