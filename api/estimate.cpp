@@ -111,7 +111,7 @@ double processor_seconds() {
 constexpr double kPosition = 24;
 constexpr double kFace = 12;
 constexpr double kApartOnce = 10e6;
-constexpr double kApartPoint = 100;
+constexpr double kApartPoint = 150;
 constexpr double kApartFace = 200;
 constexpr double kTreePoint = 44;
 constexpr double kGridPoint = 60;

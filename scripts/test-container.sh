@@ -73,8 +73,7 @@ run_server() {
     trap remove_server EXIT
     "$engine" run --detach --name "$server" --network host --env "LPF_PORT=$port" \
         --env "LPF_ADMIN_PORT=$admin" --env LPF_DISK_FLOOR_BYTES=0 --env LPF_DISK_FLOOR_PERCENT=0 \
-        --read-only --tmpfs /tmp --cap-drop ALL --security-opt no-new-privileges \
-        --ulimit nofile=16384:16384 "$image" >/dev/null
+        --read-only --tmpfs /tmp --cap-drop ALL --security-opt no-new-privileges "$image" >/dev/null
     export LPF_URL=http://127.0.0.1:$port
     for _ in $(seq 100); do
         curl -sf -o /dev/null "$LPF_URL/healthz" && return

@@ -29,7 +29,8 @@ struct Config {
     std::filesystem::path api_key_file;        ///< empty: everybody may use the service
     std::vector<std::string> cors_origins;     ///< pages that may use it; "*": all of them
     std::vector<std::string> trusted_proxies;  ///< addresses whose X-Forwarded-For is believed
-    std::uint64_t decoding_bytes = 0;  ///< for files that requests decode; no flag: what jobs leave
+    std::uint64_t decoding_bytes =
+        1ULL << 30;  ///< for files that requests decode; no flag: what jobs leave
     Limits limits = {};
     bool health_check = false;  ///< only ask a running server whether it is healthy
     std::string hash_key;       ///< only print the line of the key file for this name

@@ -12,8 +12,7 @@ import requests
 IMAGE = os.environ["LPF_IMAGE"]
 ENGINE = os.environ.get("LPF_ENGINE", "podman")
 HARDENED = ["--read-only", "--tmpfs", "/tmp", "--cap-drop", "ALL",
-            "--security-opt", "no-new-privileges", "--pids-limit", "512",
-            "--ulimit", "nofile=16384:16384"]
+            "--security-opt", "no-new-privileges", "--pids-limit", "512"]
 
 
 def engine(*arguments, check=True):

@@ -54,7 +54,9 @@ def test_it_works_and_logs_json_lines(run):
 
 def test_health_is_probed_by_the_binary_itself(run):
     server = run()
-    assert facts()["Config"]["Healthcheck"]["Test"] == ["CMD", "lpf-server", "--healthcheck"]
+    image = facts()
+    probe = image.get("Healthcheck") or image["Config"]["Healthcheck"]  # podman, docker
+    assert probe["Test"] == ["CMD", "lpf-server", "--healthcheck"]
     assert server.run("lpf-server", "--healthcheck").returncode == 0
     assert server.run("env", "LPF_ADMIN_PORT=1", "lpf-server", "--healthcheck").returncode == 1
     if engine("healthcheck", "run", server.name, check=False).returncode == 0:

@@ -46,7 +46,7 @@ def _in_container(arguments):
     name = "lpf-e2e-" + uuid.uuid4().hex[:12]
     command = [ENGINE, "run", "--rm", "--interactive", "--name", name, "--network", "host",
                "--read-only", "--tmpfs", "/tmp", "--cap-drop", "ALL",
-               "--security-opt", "no-new-privileges", "--ulimit", "nofile=16384:16384"]
+               "--security-opt", "no-new-privileges"]
     for path in sorted({_shared(Path(text)) for text in arguments if text.startswith("/")}):
         subprocess.run(["chown", "-R", str(USER), str(path)], check=False, capture_output=True)
         command += ["--volume", f"{path}:{path}"]
