@@ -35,8 +35,8 @@ def start(tmp_path):
     needs_program()
     servers = []
 
-    def make(*flags, log=None):
-        servers.append(Server(tmp_path / "data", *flags, log=log))
+    def make(*flags, **options):
+        servers.append(Server(tmp_path / "data", *flags, **options))
         return servers[-1]
 
     yield make

@@ -29,24 +29,32 @@ def run(arguments, **options):
                           **options)
 
 
-def start(arguments, stderr):
-    """Starts the program. What it says on standard output can be read from `stdout`."""
+def start(arguments, stderr, descriptors=None):
+    """Starts the program. What it says on standard output can be read from `stdout`.
+
+    `descriptors` limits how many the program may have open.
+    """
     if IMAGE:
-        name, command = _in_container(arguments)
+        name, command = _in_container(arguments, descriptors)
         return _Container(name, command, stderr)
-    return subprocess.Popen(_binary(arguments), stdout=subprocess.PIPE, stderr=stderr, text=True)
+    command = _binary(arguments)
+    if descriptors:
+        command = ["prlimit", f"--nofile={descriptors}:{descriptors}", *command]
+    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=stderr, text=True)
 
 
 def _binary(arguments):
     return [os.environ["LPF_SERVER_BINARY"], *arguments]
 
 
-def _in_container(arguments):
+def _in_container(arguments, descriptors=None):
     """A name, and the command that runs a container of this name as it is meant to be run."""
     name = "lpf-e2e-" + uuid.uuid4().hex[:12]
     command = [ENGINE, "run", "--rm", "--interactive", "--name", name, "--network", "host",
-               "--read-only", "--tmpfs", "/tmp", "--cap-drop", "ALL",
+               "--no-healthcheck", "--read-only", "--tmpfs", "/tmp", "--cap-drop", "ALL",
                "--security-opt", "no-new-privileges"]
+    if descriptors:  # podman forgets its other default with the first limit that is named
+        command += ["--ulimit", f"nofile={descriptors}:{descriptors}", "--ulimit", "nproc=4096:4096"]
     for path in sorted({_shared(Path(text)) for text in arguments if text.startswith("/")}):
         subprocess.run(["chown", "-R", str(USER), str(path)], check=False, capture_output=True)
         command += ["--volume", f"{path}:{path}"]

@@ -9,13 +9,13 @@ import program
 class Server:
     """A running lpf-server. The same folder may be given to one after the other."""
 
-    def __init__(self, folder, *flags, log=None):
+    def __init__(self, folder, *flags, log=None, descriptors=None):
         """The log goes to the file `log`, or to where the tests' own errors go."""
         self.log = open(log, "wb") if log else None  # pylint: disable=consider-using-with
         self.process = program.start(
             ["--host", "127.0.0.1", "--port", "0", "--admin-port", "0", "--data-dir", str(folder),
              "--disk-floor-bytes", "0", "--disk-floor-percent", "0", "--log-level", "warn", *flags],
-            self.log)
+            self.log, descriptors)
         line = self.process.stdout.readline()
         if not line:
             raise RuntimeError(f"the server did not start: exit {self.process.wait()}")

@@ -335,9 +335,7 @@ def test_connections_are_kept_for_the_next_request(server):
 
 def test_running_out_of_descriptors_is_survived(start):
     """Connections wait, or are refused, until others end; then all is as before."""
-    poor = start("--max-connections-per-client", "0")
-    import resource
-    resource.prlimit(poor.pid, resource.RLIMIT_NOFILE, (64, 64))
+    poor = start("--max-connections-per-client", "0", descriptors=64)
     crowd = []
     for _ in range(100):
         raw = Raw(poor)
