@@ -73,12 +73,13 @@ run_server() {
     trap remove_server EXIT
     "$engine" run --detach --name "$server" --network host --env "LPF_PORT=$port" \
         --env "LPF_ADMIN_PORT=$admin" --env LPF_DISK_FLOOR_BYTES=0 --env LPF_DISK_FLOOR_PERCENT=0 \
-        --read-only --tmpfs /tmp --cap-drop ALL --security-opt no-new-privileges "$image" >/dev/null
+        --read-only --tmpfs /tmp --cap-drop ALL --security-opt no-new-privileges "$image" >"$log/engine.log" 2>&1
     export LPF_URL=http://127.0.0.1:$port
     for _ in $(seq 100); do
         curl -sf -o /dev/null "$LPF_URL/healthz" && return
         sleep 0.1
     done
+    cat "$log/engine.log" >&2
     "$engine" logs "$server" >&2
     return 1
 }
