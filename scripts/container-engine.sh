@@ -38,10 +38,14 @@ install_podman() {
 }
 
 # Works within another container, too: no network of its own, and no limits above those there are.
+# Paths are short: sockets lie below `run`, and with a name too long for one every end takes 20 s.
 configure_podman() {
-    local boot
-    boot=$(cat /proc/sys/kernel/random/boot_id)  # what ran before a restart of the machine is gone
     mkdir -p "$containers/conf"
+    # What ran before a restart of the machine is gone.
+    if ! cmp -s /proc/sys/kernel/random/boot_id "$containers/boot"; then
+        rm -rf "$containers/run"
+        cat /proc/sys/kernel/random/boot_id >"$containers/boot"
+    fi
     cat >"$containers/conf/containers.conf" <<TEXT
 [containers]
 default_ulimits = ["nofile=20000:20000", "nproc=4096:4096"]
@@ -55,7 +59,7 @@ TEXT
 [storage]
 driver = "overlay"
 graphroot = "$containers/storage"
-runroot = "$containers/run-$boot"
+runroot = "$containers/run"
 TEXT
     cat >"$containers/conf/registries.conf" <<TEXT
 unqualified-search-registries = ["docker.io"]
