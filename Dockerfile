@@ -40,6 +40,9 @@ RUN apt-get update \
 COPY --from=build /opt/lpf/ /usr/local/
 ARG VERSION=unknown
 ARG COMMIT=unknown
+# The labels tell the truth: of the version, and, as Buildah keeps labels of an older build unless a
+# command came between, of the commit.
+RUN [ "${VERSION}" = unknown ] || [ "$(lpf-server --version)" = "lpf-server ${VERSION}" ]
 LABEL org.opencontainers.image.title="LPF Server" \
       org.opencontainers.image.description="Denoises, resamples and analyses 3D shapes over HTTP" \
       org.opencontainers.image.licenses="Apache-2.0" \
