@@ -91,7 +91,8 @@ class Bench:
         scan = shapes.simulate(self.tool, shape, self.options.mesh, self.options.seed, folder)
         kept = folder / f"{scan.path.stem}-error.json"
         if not kept.exists():
-            kept.write_text(json.dumps(shapes.measure(self.tool, scan, scan.path)), encoding="utf-8")
+            measured = shapes.measure(self.tool, scan, scan.path)
+            kept.write_text(json.dumps(measured), encoding="utf-8")
         error = json.loads(kept.read_text(encoding="utf-8"))
         return scan, {"noise": scan.noise, "points": shape.points, "error": error}
 
@@ -117,7 +118,7 @@ class Bench:
         return found
 
     def runs_of(self, scan, method):
-        """All runs of a method on a scan: those that are kept, and the missing ones if asked for."""
+        """All runs of a method on a scan: the kept ones, and the missing ones if asked for."""
         runs = []
         for number, settings in enumerate(method.settings(scan)):
             kept = self.kept_at(scan, method, settings)

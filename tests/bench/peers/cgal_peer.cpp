@@ -61,8 +61,9 @@ std::vector<Oriented> smoothed_by_bilateral(const std::vector<Point>& points,
     const unsigned neighbours = settings.count("neighbours");
     std::vector<Oriented> oriented;
     for (const Point& point : points) oriented.emplace_back(point, Kernel::Vector_3());
-    CGAL::pca_estimate_normals<Tag>(oriented, neighbours, maps());
     for (unsigned i = 0; i < settings.count("iterations"); ++i) {
+        // Normals estimated anew are better than those that the smoothing leaves behind.
+        CGAL::pca_estimate_normals<Tag>(oriented, neighbours, maps());
         CGAL::bilateral_smooth_point_set<Tag>(oriented, neighbours,
                                               maps().sharpness_angle(settings.number("angle")));
     }
@@ -94,7 +95,7 @@ std::vector<Point> wlop(std::vector<Point> points, const Settings& settings) {
 
 std::vector<Point> ear(const std::vector<Point>& points, const Settings& settings) {
     const std::vector<Oriented> smooth = smoothed_by_bilateral(points, settings);
-    std::vector<Oriented> result;
+    std::vector<Oriented> result = smooth;  // CGAL gives the new points only
     CGAL::edge_aware_upsample_point_set<Tag>(
         smooth, std::back_inserter(result),
         maps()

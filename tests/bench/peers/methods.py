@@ -53,16 +53,22 @@ def _ours(process):
     return run
 
 
+def _different(settings):
+    return [dict(items) for items in dict.fromkeys(tuple(one.items()) for one in settings)]
+
+
 # Balls and disks are given in standard deviations of the noise, see Scan.radius. The first setting
 # of each is the one that is most often the best.
 
 def _bilateral(scan):
-    return [{"neighbours": min(scan.neighbours(noises), 400), "angle": 25, "iterations": iterations}
-            for noises, iterations in [(3, 5), (3, 2)]]
+    most = 120_000_000 // scan.shape.points  # or a run takes longer than its limit
+    return _different({"neighbours": min(scan.neighbours(noises), most), "angle": 25,
+                       "iterations": iterations}
+                      for noises, iterations in [(3, 3), (2, 2), (4.5, 3)])
 
 
 def _jet(scan):
-    return [{"neighbours": scan.neighbours(noises), "iterations": 1} for noises in (3, 2, 4.5)]
+    return [{"neighbours": scan.neighbours(noises), "iterations": 1} for noises in (2, 3, 4.5, 6)]
 
 
 def _wlop(scan):
@@ -71,7 +77,7 @@ def _wlop(scan):
 
 
 def _mls(scan):
-    return [{"radius": scan.radius(noises), "order": 2} for noises in (3, 2, 4.5)]
+    return [{"radius": scan.radius(noises), "order": 2} for noises in (2, 3, 4.5, 6)]
 
 
 def _projection(**own):
@@ -83,17 +89,17 @@ def _projection(**own):
 
 
 def _ear(scan):
-    return [{"neighbours": scan.neighbours(3), "angle": 25, "iterations": iterations,
-             "sensitivity": sensitivity, "radius": round(3 * scan.spacing, 4),
+    return [{"neighbours": scan.neighbours(noises), "angle": 25, "iterations": iterations,
+             "sensitivity": 0, "radius": round(3 * scan.spacing, 4),
              "points": scan.shape.resample}
-            for iterations, sensitivity in [(1, 0), (2, 0), (2, 1)]]
+            for noises, iterations in [(3, 1), (3, 2), (4.5, 2), (6, 2)]]
 
 
 def _upsampling(more):
-    """MLS at two radii; `more` gives the rest of the settings for one of them."""
+    """MLS at a few radii; `more` gives the rest of the settings for one of them."""
     def settings(scan):
         return [{"radius": scan.radius(noises), "order": 2, **more(scan, noises)}
-                for noises in (3, 6)]
+                for noises in (3, 4.5, 6)]
     return settings
 
 
@@ -101,8 +107,8 @@ def _plane(scan, _):  # four points of the lattice are within reach
     return {"reach": round(0.5 * scan.spacing, 4), "step": round(0.5 * scan.spacing / 1.2, 4)}
 
 
-def _random(scan, noises):  # PCL adds density / 2 / neighbours points to each
-    return {"density": round(2 * scan.growth * scan.neighbours(noises))}
+def _random(scan, noises):  # PCL adds at most density / 2 / neighbours points to each
+    return {"density": round(2.4 * scan.growth * scan.neighbours(noises))}
 
 
 def _voxels(scan, _):  # about three layers of voxels end on the surface
@@ -111,7 +117,8 @@ def _voxels(scan, _):  # about three layers of voxels end on the surface
 
 METHODS = [
     Method("ours", "LPF Server", False, lambda scan: [{}], _ours("denoise")),
-    Method("cgal_bilateral", "CGAL bilateral", False, _bilateral, _command("cgal-peer", "bilateral")),
+    Method("cgal_bilateral", "CGAL bilateral", False, _bilateral,
+           _command("cgal-peer", "bilateral")),
     Method("cgal_jet", "CGAL jet", False, _jet, _command("cgal-peer", "jet")),
     Method("cgal_wlop", "CGAL WLOP", False, _wlop, _command("cgal-peer", "wlop")),
     Method("pcl_mls", "PCL MLS", False, _mls, _command("pcl-peer", "mls")),

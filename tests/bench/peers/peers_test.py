@@ -68,8 +68,8 @@ class Table(unittest.TestCase):
     def test_every_row_has_as_many_cells_as_the_head(self):
         facts = {"noise": 0.1, "points": 5, "error": {"diagonal": 2.0, **run_with(9.0)["error"]}}
         failed = run_with(0.0, "stopped after 900 CPU s")
-        lines = table.shape_section(shapes.SHAPES[0], facts, [("A", [run_with(1.0)]), ("B", [failed])],
-                                    [])
+        runs = [("A", [run_with(1.0)]), ("B", [failed])]
+        lines = table.shape_section(shapes.SHAPES[0], facts, runs, [])
         rows = [line for line in lines if line.startswith("|")]
         self.assertEqual(len({row.count("|") for row in rows}), 1, rows)
         self.assertIn("stopped after 900 CPU s", rows[-1])

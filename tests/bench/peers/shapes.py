@@ -41,8 +41,8 @@ class Scan:
     reference: tuple  # arguments that tell lpf-scan the truth
 
     def radius(self, noises):
-        """A ball of some standard deviations of the noise that holds about 20 points at least."""
-        return round(math.hypot(noises * self.noise, 2.5 * self.spacing), 4)
+        """Of a ball, in standard deviations of the noise; of 3 it holds 20 points at least."""
+        return round(noises * math.hypot(self.noise, 2.5 / 3 * self.spacing), 4)
 
     def scale(self, noises):
         """That radius in spacings."""
