@@ -62,9 +62,9 @@ def _different(settings):
 
 def _bilateral(scan):
     most = 120_000_000 // scan.shape.points  # or a run takes longer than its limit
-    return _different({"neighbours": min(scan.neighbours(noises), most), "angle": 25,
+    return _different({"neighbours": min(scan.neighbours(noises), most), "angle": angle,
                        "iterations": iterations}
-                      for noises, iterations in [(3, 3), (2, 2), (4.5, 3)])
+                      for noises, angle, iterations in [(3, 25, 3), (6, 12, 1), (2, 25, 2)])
 
 
 def _jet(scan):
@@ -89,10 +89,10 @@ def _projection(**own):
 
 
 def _ear(scan):
-    return [{"neighbours": scan.neighbours(noises), "angle": 25, "iterations": iterations,
+    return [{"neighbours": scan.neighbours(noises), "angle": angle, "iterations": iterations,
              "sensitivity": 0, "radius": round(3 * scan.spacing, 4),
              "points": scan.shape.resample}
-            for noises, iterations in [(3, 1), (3, 2), (4.5, 2), (6, 2)]]
+            for noises, angle, iterations in [(3, 25, 1), (3, 25, 2), (4.5, 25, 2), (6, 12, 1)]]
 
 
 def _upsampling(more):
