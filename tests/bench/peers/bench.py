@@ -100,6 +100,11 @@ class Bench:
         key = ",".join(f"{name}={value}" for name, value in settings.items()) or "automatic"
         return self.options.out / "runs" / f"{scan.path.stem}--{method.name}--{key}.json"
 
+    def kept_runs(self, scan, method):
+        """Also those of settings that are no longer among the method's."""
+        paths = (self.options.out / "runs").glob(f"{scan.path.stem}--{method.name}--*.json")
+        return [json.loads(path.read_text(encoding="utf-8")) for path in sorted(paths)]
+
     def run(self, scan, method, settings):
         """Runs a method once, measures its result, and keeps what was found."""
         result = self.options.out / "work" / f"{scan.shape.name}-{method.name}.ply"
@@ -117,23 +122,20 @@ class Bench:
                                                         encoding="utf-8")
         return found
 
-    def runs_of(self, scan, method):
-        """All runs of a method on a scan: the kept ones, and the missing ones if asked for."""
-        runs = []
-        for number, settings in enumerate(method.settings(scan)):
-            kept = self.kept_at(scan, method, settings)
-            wanted = (not self.options.table and scan.shape.name in self.options.shapes
-                      and method.name in self.options.methods and number < self.options.tries)
-            anew = self.options.again or method.name.startswith("ours")
-            if wanted and (anew or not kept.exists()):
-                found = self.run(scan, method, settings)
-                rmse = f"{found['error']['rmse']:.4f}" if "error" in found else found["outcome"]
-                print(f"{scan.shape.name:16} {method.name:14} {rmse:8} "
-                      f"{found['cpuSeconds']:7.1f} CPU s  {table.settings_text(settings)}",
-                      file=sys.stderr, flush=True)
-            if kept.exists():
-                runs.append(json.loads(kept.read_text(encoding="utf-8")))
-        return runs
+    def run_missing(self, scan, method):
+        """Runs the settings of a method that were not run before; ours anyway."""
+        anew = self.options.again or method.name.startswith("ours")
+        for settings in method.settings(scan)[:self.options.tries]:
+            if not anew and self.kept_at(scan, method, settings).exists():
+                continue
+            found = self.run(scan, method, settings)
+            rmse = f"{found['error']['rmse']:.4f}" if "error" in found else found["outcome"]
+            print(f"{scan.shape.name:16} {method.name:14} {rmse:8} {found['cpuSeconds']:7.1f} CPU s"
+                  f"  {table.settings_text(settings)}", file=sys.stderr, flush=True)
+
+    def wanted(self, shape, method):
+        return (not self.options.table and shape.name in self.options.shapes
+                and method.name in self.options.methods)
 
     def everything(self):
         """Runs what is to be run. A list of (shape, facts, [(method, runs)])."""
@@ -142,8 +144,11 @@ class Bench:
             scan, facts = self.scan(shape)
             if not scan:
                 continue
-            tried = [(method, self.runs_of(scan, method)) for method in METHODS
-                     if shape.resample or not method.resamples]
+            methods = [m for m in METHODS if shape.resample or not m.resamples]
+            for method in methods:
+                if self.wanted(shape, method):
+                    self.run_missing(scan, method)
+            tried = [(method, self.kept_runs(scan, method)) for method in methods]
             found.append((shape, facts, [(method, runs) for method, runs in tried if runs]))
         return [entry for entry in found if entry[2]]
 
@@ -155,6 +160,10 @@ def markdown(found):
         denoised = [(m.label, runs) for m, runs in methods if not m.resamples]
         resampled = [(m.label, runs) for m, runs in methods if m.resamples]
         lines += table.shape_section(shape, facts, denoised, resampled)
+        ran = {m.name for m, _ in methods}
+        missing = [m.label for m in METHODS
+                   if m.name not in ran and (shape.resample or not m.resamples)]
+        lines += [f"Not measured: {', '.join(missing)}.", ""] if missing else []
         tried += [(m.label, run) for m, runs in methods for run in runs if run["settings"]]
     ours = {run["commit"] for _, _, methods in found for method, runs in methods for run in runs
             if method.name.startswith("ours")}

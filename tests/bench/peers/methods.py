@@ -53,22 +53,20 @@ def _ours(process):
     return run
 
 
-def _different(settings):
-    return [dict(items) for items in dict.fromkeys(tuple(one.items()) for one in settings)]
-
-
 # Balls and disks are given in standard deviations of the noise, see Scan.radius. The first setting
 # of each is the one that is most often the best.
 
 def _bilateral(scan):
-    most = 120_000_000 // scan.shape.points  # or a run takes longer than its limit
-    return _different({"neighbours": min(scan.neighbours(noises), most), "angle": angle,
-                       "iterations": iterations}
-                      for noises, angle, iterations in [(3, 25, 3), (6, 12, 1), (2, 25, 2)])
+    def neighbours(noises, iterations):
+        most = 450_000_000 // scan.shape.points // iterations  # or a run takes beyond its limit
+        return min(scan.neighbours(noises), most)
+    return [{"neighbours": neighbours(noises, iterations), "angle": angle, "iterations": iterations}
+            for noises, angle, iterations in [(3, 25, 3), (3, 25, 1), (6, 12, 1), (2, 25, 2)]]
 
 
 def _jet(scan):
-    return [{"neighbours": scan.neighbours(noises), "iterations": 1} for noises in (2, 3, 4.5, 6)]
+    return [{"neighbours": scan.neighbours(noises), "iterations": 1}
+            for noises in (3, 2, 4.5, 6)]
 
 
 def _wlop(scan):
@@ -77,7 +75,7 @@ def _wlop(scan):
 
 
 def _mls(scan):
-    return [{"radius": scan.radius(noises), "order": 2} for noises in (2, 3, 4.5, 6)]
+    return [{"radius": scan.radius(noises), "order": 2} for noises in (3, 4.5, 2, 6)]
 
 
 def _projection(**own):
