@@ -61,6 +61,24 @@ ErrorStats error_to_shape(const Points& points, const TestShape& shape,
     return summarize(std::move(chosen));
 }
 
+PartErrors error_by_part(const Points& points, const TestShape& shape, double edge_reach) {
+    const auto to = [&](const std::vector<PiecePtr>& pieces) {
+        return distances_of(points,
+                            [&](const Vector3d& p) { return distance_to_pieces(pieces, p); });
+    };
+    const std::vector<double> surface = to(pieces_of_dimension(shape, 2));
+    const std::vector<double> curve = to(pieces_of_dimension(shape, 1));
+    const std::vector<double> edge = to(shape.edges);
+    std::vector<double> all, on_surface, on_curve, near_edges;
+    for (std::size_t i = 0; i < surface.size(); ++i) {
+        all.push_back(std::min(surface[i], curve[i]));
+        (surface[i] <= curve[i] ? on_surface : on_curve).push_back(all.back());
+        if (edge[i] <= edge_reach) near_edges.push_back(all.back());
+    }
+    return {summarize(std::move(all)), summarize(std::move(on_surface)),
+            summarize(std::move(on_curve)), summarize(std::move(near_edges))};
+}
+
 double coverage(const Points& reference, const Points& points) {
     const CloudDistance nearest(points);
     return summarize(distances_of(reference, nearest)).rmse;
@@ -75,7 +93,8 @@ ShapeCoverage coverage_of_shape(const TestShape& shape, const Points& points, st
     std::vector<double> to_ends;
     for (const Vector3d& end : shape.ends) to_ends.push_back(nearest(end));
     return {of(pieces_of_dimension(shape, 2)), of(pieces_of_dimension(shape, 1)), of(shape.borders),
-            to_ends.empty() ? std::numeric_limits<double>::quiet_NaN() : summarize(to_ends).rmse};
+            to_ends.empty() ? std::numeric_limits<double>::quiet_NaN() : summarize(to_ends).rmse,
+            of(shape.edges)};
 }
 
 NeighbourStats nearest_neighbour_stats(const Points& points) {

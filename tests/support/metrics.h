@@ -28,6 +28,16 @@ struct ErrorStats {
 [[nodiscard]] ErrorStats error_to_shape(const Points& points, const TestShape& shape,
                                         const std::vector<std::uint8_t>& use = {});
 
+/// Errors of the points by what they are nearest to; near_edges counts some of the others again.
+struct PartErrors {
+    ErrorStats all;
+    ErrorStats surface;     ///< points nearest to a surface
+    ErrorStats curve;       ///< points nearest to a curve
+    ErrorStats near_edges;  ///< points at most `edge_reach` from a sharp edge
+};
+[[nodiscard]] PartErrors error_by_part(const Points& points, const TestShape& shape,
+                                       double edge_reach);
+
 /// RMS distance from `reference` to the nearest of `points`: large where a result has holes.
 [[nodiscard]] double coverage(const Points& reference, const Points& points);
 
@@ -38,6 +48,7 @@ struct ShapeCoverage {
     double curve;
     double border;
     double end;
+    double edge;
 };
 [[nodiscard]] ShapeCoverage coverage_of_shape(const TestShape& shape, const Points& points,
                                               std::size_t samples = 20000);

@@ -79,6 +79,37 @@ TEST(MeshDistance, AgreesWithTheExactCube) {
     }
 }
 
+TEST(ErrorByPart, PointsCountWhereTheyAreNearest) {
+    const TestShape shape = make_cube_with_curve({.points = 1});
+    Points points(3, 3);
+    points.col(0) << 2.3, 0, 1.5;   // over a face, .5 from an edge
+    points.col(1) << 2.3, 0, 2.4;   // over the edge itself: .3 and .4 off
+    points.col(2) << 0, 0, 0.5001;  // the wave passes through (0, 0, .5)
+    const PartErrors parts = error_by_part(points, shape, 0.55);
+    EXPECT_EQ(parts.all.count, 3U);
+    EXPECT_EQ(parts.surface.count, 2U);
+    EXPECT_NEAR(parts.surface.max, 0.5, 1e-9);
+    EXPECT_EQ(parts.curve.count, 1U);
+    EXPECT_NEAR(parts.curve.max, 1e-4, 1e-4);
+    EXPECT_EQ(parts.near_edges.count, 1U);
+    EXPECT_NEAR(parts.near_edges.rmse, 0.5, 1e-9);
+    EXPECT_EQ(error_by_part(points, shape, 0.6).near_edges.count, 2U);
+}
+
+TEST(ErrorByPart, AllIsTheErrorToTheShape) {
+    const TestShape shape = make_curvenet({.points = 5000, .noise = 0.2});
+    EXPECT_DOUBLE_EQ(error_by_part(shape.points, shape, 1).all.rmse,
+                     error_to_shape(shape.points, shape).rmse);
+    EXPECT_EQ(error_by_part(shape.points, shape, 1).near_edges.count, 0U);
+}
+
+TEST(Coverage, RoundedEdgesAreSeen) {
+    const TestShape cube = make_cube({.points = 40000});
+    EXPECT_LT(coverage_of_shape(cube, cube.points).edge, 0.04);
+    EXPECT_NEAR(coverage_of_shape(cube, 0.9 * cube.points).edge, 0.1 * std::sqrt(2.0), 0.02);
+    EXPECT_TRUE(std::isnan(coverage_of_shape(make_sphere({.points = 1}), cube.points).edge));
+}
+
 TEST(Coverage, AHoleIsSeen) {
     const TestShape plane = make_plane({.points = 20000});
     Points half(3, 0);

@@ -10,7 +10,9 @@
 #include "api/codec/format.h"
 #include "core/base/error.h"
 #include "core/shape/normals.h"
+#include "tests/support/mesh_shape.h"
 #include "tests/support/metrics.h"
+#include "tests/support/scan_report.h"
 
 namespace lpf::test {
 namespace {
@@ -35,37 +37,32 @@ void write_points(const std::string& path, const Points& points) {
     if (!file.flush()) throw Error(ErrorCode::StorageFailure, "Writing " + path + " failed.");
 }
 
-/// The distance function of a reference and the diagonal of what it measures to.
-struct Target {
-    Distance distance;
-    double diagonal = 0.0;
-};
-
-Target target_of(const Reference& reference) {
-    if (!reference.shape.empty()) {
-        const auto shape = std::make_shared<TestShape>(make_shape(reference.shape, {.points = 1}));
-        return {[shape](const Vector3d& point) { return shape->distance(point); },
-                shape->diagonal()};
-    }
-    const Document document = read_file(reference.file);
-    const Points& points = document.shape.cloud.points;
-    if (document.shape.is_mesh()) {
-        return {MeshDistance(points, document.shape.triangles), diagonal_of(points)};
-    }
-    return {CloudDistance(points), diagonal_of(points)};
+/// The shape of a file with triangles.
+TestShape shape_of_mesh(const std::string& path, const Sampling& sampling) {
+    const Document document = read_file(path);
+    if (document.shape.is_mesh()) return make_mesh_shape(document.shape, sampling);
+    throw Error(ErrorCode::InvalidParameter,
+                "The file " + path + " has no triangles. --mesh takes a mesh.", "mesh");
 }
 
-json to_json(const ErrorStats& stats, double diagonal) {
-    const auto percent = [&](double length) { return diagonal > 0 ? 100 * length / diagonal : 0; };
-    return {{"rmse", stats.rmse},
-            {"mean", stats.mean},
-            {"p95", stats.p95},
-            {"max", stats.max},
-            {"percentOfDiagonal",
-             {{"rmse", percent(stats.rmse)},
-              {"mean", percent(stats.mean)},
-              {"p95", percent(stats.p95)},
-              {"max", percent(stats.max)}}}};
+/// The distance function of a reference and the diagonal of what it measures to.
+struct Target {
+    Distance distance = {};
+    double diagonal = 0.0;
+    std::shared_ptr<const TestShape> shape = {};  ///< none if the reference is a cloud
+};
+
+Target target_of(const TestShape& exact) {
+    const auto shape = std::make_shared<const TestShape>(exact);
+    return {[shape](const Vector3d& p) { return shape->distance(p); }, shape->diagonal(), shape};
+}
+
+Target target_of(const Reference& reference) {
+    if (!reference.shape.empty()) return target_of(make_shape(reference.shape, {.points = 1}));
+    const Document document = read_file(reference.file);
+    if (document.shape.is_mesh()) return target_of(make_mesh_shape(document.shape, {.points = 1}));
+    const Points& points = document.shape.cloud.points;
+    return {CloudDistance(points), diagonal_of(points)};
 }
 
 /// Values on the colour scale, from the least to the largest.
@@ -135,27 +132,48 @@ View view_of(const Points& points, const RenderCommand& command) {
 }  // namespace
 
 json simulate(const SimulateCommand& command) {
-    const TestShape shape = make_shape(command.shape, command.sampling);
+    const auto make = [&](const Sampling& sampling) {
+        return command.mesh.empty() ? make_shape(command.shape, sampling)
+                                    : shape_of_mesh(command.mesh, sampling);
+    };
+    Sampling sampling = command.sampling;
+    if (command.noise_percent > 0) {
+        sampling.noise = command.noise_percent / 100 * make({.points = 1}).diagonal();
+    }
+    const TestShape shape = make(sampling);
     write_points(command.output, shape.points);
     if (!command.clean_output.empty()) write_points(command.clean_output, shape.clean);
-    return {{"shape", command.shape},
-            {"points", command.sampling.points},
-            {"noise", command.sampling.noise},
-            {"noisePercentOfDiagonal", 100 * command.sampling.noise / shape.diagonal()},
-            {"seed", command.sampling.seed},
+    double area = 0.0;
+    for (const PiecePtr& piece : shape.pieces) {
+        if (piece->dimension() == 2) area += piece->measure();
+    }
+    const std::vector<std::uint8_t> on_curve = shape.on_curve();
+    return {{"shape", command.mesh.empty() ? command.shape : command.mesh},
+            {"points", sampling.points},
+            {"noise", sampling.noise},
+            {"noisePercentOfDiagonal", 100 * sampling.noise / shape.diagonal()},
+            {"seed", sampling.seed},
             {"diagonal", shape.diagonal()},
+            {"area", area},
+            {"pointsOnCurves", std::count(on_curve.begin(), on_curve.end(), 1)},
             {"output", command.output}};
 }
 
 json measure_error(const ErrorCommand& command) {
     const Target target = target_of(command.reference);
     const Document result = read_file(command.result);
-    const ErrorStats stats = summarize(distances_of(result.shape.cloud.points, target.distance));
+    const Points& points = result.shape.cloud.points;
+    const ErrorStats stats = summarize(distances_of(points, target.distance));
     json report = to_json(stats, target.diagonal);
     report["points"] = stats.count;
     report["diagonal"] = target.diagonal;
     report["reference"] =
         command.reference.shape.empty() ? command.reference.file : command.reference.shape;
+    if (command.detailed && target.shape) {
+        report["parts"] = to_json(error_by_part(points, *target.shape, command.edge_distance));
+        report["coverage"] = to_json(coverage_of_shape(*target.shape, points));
+    }
+    if (command.detailed) report["spacing"] = to_json(nearest_neighbour_stats(points));
     return report;
 }
 

@@ -19,7 +19,9 @@ struct Reference {
 
 struct SimulateCommand {
     std::string shape = "curvenet";
+    std::string mesh = {};  ///< file of a mesh to sample instead of `shape`
     Sampling sampling = {};
+    double noise_percent = 0.0;  ///< of the diagonal; instead of sampling.noise
     std::string output = {};
     std::string clean_output = {};  ///< empty: none
 };
@@ -27,6 +29,8 @@ struct SimulateCommand {
 struct ErrorCommand {
     std::string result = {};
     Reference reference = {};
+    bool detailed = false;       ///< also by part, coverage and spacing
+    double edge_distance = 0.0;  ///< how far "near a sharp edge" reaches; 0: not told
 };
 
 struct RenderCommand {
@@ -45,6 +49,8 @@ struct RenderCommand {
 nlohmann::ordered_json simulate(const SimulateCommand& command);
 
 /// Distances from a result to the reference, in input units and in per cent of the diagonal.
+/// Details tell them by part (surface, curve, near sharp edges), and the way back: coverage of each
+/// part.
 nlohmann::ordered_json measure_error(const ErrorCommand& command);
 
 /// Draws files side by side.

@@ -20,16 +20,23 @@ void add_reference(CLI::App& command, Reference& reference) {
 
 void add_simulate(CLI::App& app, SimulateCommand& command) {
     CLI::App* sub = app.add_subcommand("simulate", "Write a noisy scan of a known shape");
-    sub->add_option("--shape", command.shape, "Which shape")
-        ->check(CLI::IsMember(shape_names()))
-        ->capture_default_str();
+    auto* shape = sub->add_option("--shape", command.shape, "Which shape")
+                      ->check(CLI::IsMember(shape_names()))
+                      ->capture_default_str();
+    sub->add_option("--mesh", command.mesh, "Sample the triangles of this file instead")
+        ->check(CLI::ExistingFile)
+        ->excludes(shape);
     sub->add_option("--points", command.sampling.points, "How many points")
         ->check(CLI::Range(std::size_t{1}, std::size_t{20'000'000}))
         ->capture_default_str();
-    sub->add_option("--noise", command.sampling.noise,
-                    "Standard deviation of the noise, in the shape's units")
+    auto* noise = sub->add_option("--noise", command.sampling.noise,
+                                  "Standard deviation of the noise, in the shape's units")
+                      ->check(CLI::NonNegativeNumber)
+                      ->capture_default_str();
+    sub->add_option("--noise-percent", command.noise_percent,
+                    "The same in per cent of the shape's diagonal")
         ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
+        ->excludes(noise);
     sub->add_option("--seed", command.sampling.seed, "Of the random numbers")
         ->capture_default_str();
     sub->add_option("-o,--output", command.output, "PLY file to write")->required();
@@ -43,6 +50,10 @@ void add_error(CLI::App& app, ErrorCommand& command) {
         ->required()
         ->check(CLI::ExistingFile);
     add_reference(*sub, command.reference);
+    sub->add_flag("--detailed", command.detailed, "Also by part, coverage, spacing");
+    sub->add_option("--edge-distance", command.edge_distance,
+                    "With details: points so near to a sharp edge are told apart")
+        ->check(CLI::NonNegativeNumber);
     sub->callback([&command] {
         if (command.reference.empty()) throw CLI::RequiredError("--shape or --reference");
         std::cout << measure_error(command).dump(2) << '\n';

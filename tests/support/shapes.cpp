@@ -10,19 +10,6 @@
 namespace lpf::test {
 namespace {
 
-/// Draws the samples of a shape whose pieces are set.
-TestShape sampled(TestShape shape, const Sampling& sampling, double curve_share = 0.1,
-                  const std::vector<double>& weights = {}) {
-    shape.clean = sample_pieces(shape.pieces, sampling.points, sampling.seed, curve_share, weights,
-                                &shape.piece);
-    shape.points = shape.clean;
-    for (Eigen::Index i = 0; i < shape.points.cols(); ++i) {
-        Random random(sampling.seed + 1, static_cast<std::uint64_t>(i));
-        for (int c = 0; c < 3; ++c) shape.points(c, i) += sampling.noise * random.normal();
-    }
-    return shape;
-}
-
 PiecePtr unit_sheet(double z) { return rectangle({-1, -1, z}, {2, 0, 0}, {0, 2, 0}); }
 
 std::vector<PiecePtr> border_of_unit_sheet(double z) {
@@ -38,15 +25,44 @@ std::vector<PiecePtr> cube_faces(double half) {
             rectangle(low + x, y, z), rectangle(low, z, x),     rectangle(low + y, z, x)};
 }
 
+std::vector<PiecePtr> cube_edges(double half) {
+    std::vector<PiecePtr> edges;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int corner = 0; corner < 4; ++corner) {
+            Vector3d from = Vector3d::Constant(-half);
+            if (corner & 1) from[(axis + 1) % 3] = half;
+            if (corner & 2) from[(axis + 2) % 3] = half;
+            edges.push_back(segment(from, from + 2 * half * Vector3d::Unit(axis)));
+        }
+    }
+    return edges;
+}
+
 }  // namespace
 
-double TestShape::distance(const Vector3d& point) const {
+double distance_to_pieces(const std::vector<PiecePtr>& pieces, const Vector3d& point) {
     double best = std::numeric_limits<double>::infinity();
-    for (const PiecePtr& piece_here : pieces) {
-        if (piece_here->box().squaredExteriorDistance(point) >= best) continue;
-        best = std::min(best, piece_here->squared_distance(point));
+    for (const PiecePtr& piece : pieces) {
+        if (piece->box().squaredExteriorDistance(point) >= best) continue;
+        best = std::min(best, piece->squared_distance(point));
     }
     return std::sqrt(best);
+}
+
+TestShape sampled(TestShape shape, const Sampling& sampling, double curve_share,
+                  const std::vector<double>& weights) {
+    shape.clean = sample_pieces(shape.pieces, sampling.points, sampling.seed, curve_share, weights,
+                                &shape.piece);
+    shape.points = shape.clean;
+    for (Eigen::Index i = 0; i < shape.points.cols(); ++i) {
+        Random random(sampling.seed + 1, static_cast<std::uint64_t>(i));
+        for (int c = 0; c < 3; ++c) shape.points(c, i) += sampling.noise * random.normal();
+    }
+    return shape;
+}
+
+double TestShape::distance(const Vector3d& point) const {
+    return distance_to_pieces(pieces, point);
 }
 
 double TestShape::diagonal() const {
@@ -97,7 +113,9 @@ TestShape make_sphere(const Sampling& sampling) {
     return sampled({"sphere", {sphere_surface(Vector3d::Zero(), 1)}}, sampling);
 }
 
-TestShape make_cube(const Sampling& sampling) { return sampled({"cube", cube_faces(1)}, sampling); }
+TestShape make_cube(const Sampling& sampling) {
+    return sampled({"cube", cube_faces(1), {}, {}, cube_edges(1)}, sampling);
+}
 
 TestShape make_thin_plate(const Sampling& sampling, double gap) {
     TestShape shape{"thin_plate", {unit_sheet(-gap / 2), unit_sheet(gap / 2)}};
@@ -111,8 +129,9 @@ TestShape make_fin(const Sampling& sampling, double degrees) {
     const double angle = degrees * std::numbers::pi / 180;
     const Vector3d arm(std::cos(angle), 0, std::sin(angle));
     const Vector3d start(0, -1, 0), along(0, 2, 0);
-    return sampled({"fin", {rectangle(start, {1, 0, 0}, along), rectangle(start, arm, along)}},
-                   sampling);
+    TestShape shape{"fin", {rectangle(start, {1, 0, 0}, along), rectangle(start, arm, along)}};
+    shape.edges = {segment(start, start + along)};
+    return sampled(std::move(shape), sampling);
 }
 
 TestShape make_crossing_curves(const Sampling& sampling) {
@@ -139,7 +158,8 @@ TestShape make_cube_with_curve(const Sampling& sampling) {
         return Vector3d(t, 0.8 * std::sin(1.5 * t), 0.5 * std::cos(1.2 * t));
     };
     constexpr double kReach = 3.37;  // for a diagonal of 8.8
-    TestShape shape{"cube_with_curve", cube_faces(2), {}, {wave(-kReach), wave(kReach)}};
+    TestShape shape{
+        "cube_with_curve", cube_faces(2), {}, {wave(-kReach), wave(kReach)}, cube_edges(2)};
     shape.pieces.push_back(curve(wave, -kReach, kReach));
     return sampled(std::move(shape), sampling);
 }

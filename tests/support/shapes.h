@@ -22,6 +22,7 @@ struct TestShape {
     std::vector<PiecePtr> pieces;
     std::vector<PiecePtr> borders = {};  ///< of open surfaces
     std::vector<Vector3d> ends = {};     ///< of open curves that end in the air
+    std::vector<PiecePtr> edges = {};    ///< sharp ones, where surfaces meet at an angle
 
     Points clean = {};                       ///< 3 x N, on the pieces
     Points points = {};                      ///< 3 x N, row i is row i of `clean` with noise
@@ -37,6 +38,13 @@ struct TestShape {
     /// One where the point was drawn from a curve.
     [[nodiscard]] std::vector<std::uint8_t> on_curve() const;
 };
+
+/// From `point` to the nearest of the pieces; infinite if there are none.
+double distance_to_pieces(const std::vector<PiecePtr>& pieces, const Vector3d& point);
+
+/// Draws the samples of a shape whose pieces are set. For the other arguments see sample_pieces.
+TestShape sampled(TestShape shape, const Sampling& sampling, double curve_share = 0.1,
+                  const std::vector<double>& weights = {});
 
 /// `count` points on the pieces, uniform by length or area: a share of `curve_share` of them on the
 /// curves where there are both. @param weights density of each piece, or empty: all the same
