@@ -35,8 +35,8 @@ void Image::paste(const Image& other, int x, int y) {
     }
 }
 
-void Image::stroke(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width,
-                   const Colour& colour) {
+void Image::line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width,
+                 const Colour& colour) {
     const double half = width / 2;
     const Eigen::Vector2d low = from.cwiseMin(to).array() - half - 1;
     const Eigen::Vector2d high = from.cwiseMax(to).array() + half + 2;

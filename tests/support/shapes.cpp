@@ -10,19 +10,6 @@
 namespace lpf::test {
 namespace {
 
-/// Draws the samples of a shape whose pieces are set.
-TestShape sampled(TestShape shape, const Sampling& sampling, double curve_share = 0.1,
-                  const std::vector<double>& weights = {}) {
-    shape.clean = sample_pieces(shape.pieces, sampling.points, sampling.seed, curve_share, weights,
-                                &shape.piece);
-    shape.points = shape.clean;
-    for (Eigen::Index i = 0; i < shape.points.cols(); ++i) {
-        Random random(sampling.seed + 1, static_cast<std::uint64_t>(i));
-        for (int c = 0; c < 3; ++c) shape.points(c, i) += sampling.noise * random.normal();
-    }
-    return shape;
-}
-
 PiecePtr unit_sheet(double z) { return rectangle({-1, -1, z}, {2, 0, 0}, {0, 2, 0}); }
 
 std::vector<PiecePtr> border_of_unit_sheet(double z) {
@@ -89,6 +76,18 @@ Points sample_pieces(const std::vector<PiecePtr>& pieces, std::size_t count, std
     return points;
 }
 
+TestShape sampled(TestShape shape, const Sampling& sampling, double curve_share,
+                  const std::vector<double>& weights) {
+    shape.clean = sample_pieces(shape.pieces, sampling.points, sampling.seed, curve_share, weights,
+                                &shape.piece);
+    shape.points = shape.clean;
+    for (Eigen::Index i = 0; i < shape.points.cols(); ++i) {
+        Random random(sampling.seed + 1, static_cast<std::uint64_t>(i));
+        for (int c = 0; c < 3; ++c) shape.points(c, i) += sampling.noise * random.normal();
+    }
+    return shape;
+}
+
 TestShape make_plane(const Sampling& sampling) {
     return sampled({"plane", {unit_sheet(0)}, border_of_unit_sheet(0)}, sampling);
 }
@@ -97,7 +96,9 @@ TestShape make_sphere(const Sampling& sampling) {
     return sampled({"sphere", {sphere_surface(Vector3d::Zero(), 1)}}, sampling);
 }
 
-TestShape make_cube(const Sampling& sampling) { return sampled({"cube", cube_faces(1)}, sampling); }
+TestShape make_cube(const Sampling& sampling, double half) {
+    return sampled({"cube", cube_faces(half)}, sampling);
+}
 
 TestShape make_thin_plate(const Sampling& sampling, double gap) {
     TestShape shape{"thin_plate", {unit_sheet(-gap / 2), unit_sheet(gap / 2)}};
