@@ -22,7 +22,7 @@ Section pyramid(const Settings& settings) {
     const Resampled done = resample_with(cloud_of(shape.points), request, settings);
     const auto row_of = [&](const std::string& name, const Points& points,
                             double seconds) -> std::vector<Cell> {
-        const test::ErrorStats all = test::error_to_shape(points, shape);
+        const test::ErrorStats all = test::error_to_shape(thinned(points), shape);
         return {name,
                 number(double(points.cols()), 1),
                 number(all.rmse),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 
 #include "core/shape/normals.h"
 #include "tests/support/metrics.h"
@@ -16,6 +17,7 @@ using test::Scene;
 using test::View;
 
 constexpr Eigen::Index kMostDrawn = 250'000;
+constexpr std::uintmax_t kLargestPicture = 150'000;  // bytes: they are kept with the sources
 constexpr int kSmallDictionary = 8;
 
 /// The points that a view shows, at most kMostDrawn of them.
@@ -24,10 +26,7 @@ Points visible(const Points& points, const View& view) {
     for (Eigen::Index i = 0; i < points.cols(); ++i) {
         if ((points.col(i) - view.centre).norm() < 1.5 * view.extent) inside.push_back(i);
     }
-    const auto step = static_cast<std::size_t>(1 + Eigen::Index(inside.size()) / kMostDrawn);
-    std::vector<Eigen::Index> kept;
-    for (std::size_t i = 0; i < inside.size(); i += step) kept.push_back(inside[i]);
-    return points(Eigen::all, kept);
+    return thinned(points(Eigen::all, inside), kMostDrawn);
 }
 
 Scene scene_of(Points points, std::vector<Colour> colours, const std::string& label) {
@@ -59,6 +58,12 @@ double seconds_of(const std::function<void()>& work) {
     const auto begin = std::chrono::steady_clock::now();
     work();
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+Points thinned(const Points& points, Eigen::Index most) {
+    const Eigen::Index step = 1 + (points.cols() - 1) / most;
+    if (step <= 1) return points;
+    return points(Eigen::all, Eigen::seq(0, points.cols() - 1, step));
 }
 
 Shape cloud_of(const Points& points) { return {{points, {}}, {}}; }
@@ -106,7 +111,7 @@ Scene distance_scene(const Points& points, const TestShape& shape, double limit,
     std::vector<Colour> colours;
     for (const double distance : test::distances_of(
              shown, [&](const test::Vector3d& point) { return shape.distance(point); })) {
-        colours.push_back(test::colour_scale(distance / limit));
+        colours.push_back(0.7F * test::colour_scale(distance / limit) + Colour::Constant(0.3F));
     }
     return scene_of(std::move(shown), std::move(colours), label);
 }
@@ -144,7 +149,12 @@ Image beside_each_other(const std::vector<Image>& images) {
 void add_picture(Section& section, const Settings& settings, const std::string& name,
                  const std::string& caption, const std::function<Image()>& draw) {
     if (settings.picture_folder.empty()) return;
-    draw().save_png(settings.picture_folder + "/" + name + ".png");
+    const std::string path = settings.picture_folder + "/" + name + ".png";
+    const Image picture = draw();
+    for (int colours = 256; colours >= 8; colours /= 2) {
+        picture.save_png(path, colours);
+        if (std::filesystem::file_size(path) < kLargestPicture) break;
+    }
     section.pictures.push_back({settings.picture_link + "/" + name + ".png", caption});
 }
 

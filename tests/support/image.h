@@ -34,6 +34,9 @@ public:
     /// @throws Error{StorageFailure} if the file cannot be written
     void save_png(const std::string& path) const;
 
+    /// The same in `colours` colours at most, 1 to 256: a much smaller file.
+    void save_png(const std::string& path, int colours) const;
+
 private:
     [[nodiscard]] std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
