@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/paper/errors.h"
 #include "tests/paper/experiments.h"
-#include "tests/support/metrics.h"
 
 namespace lpf::paper {
 namespace {
@@ -39,15 +39,15 @@ Section cube_denoising(const Settings& settings) {
             "that were drawn within .2 of an edge.",
         .tables = {{{"points", "RMSE", "near edges", "away from edges", "95 % of errors below",
                      "radius", "seconds"}}}};
-    std::vector<std::uint8_t> away = near;
-    for (auto& flag : away) flag = !flag;
+
     const auto row_of = [&](const std::string& name, const Denoised& done) -> std::vector<Cell> {
-        const test::ErrorStats all = test::error_to_shape(done.points, shape);
+        const Errors errors(done.points, shape);
+        const auto is_near = [&](Eigen::Index i) { return near[std::size_t(i)] != 0; };
         return {name,
-                number(all.rmse),
-                number(test::error_to_shape(done.points, shape, near).rmse),
-                number(test::error_to_shape(done.points, shape, away).rmse),
-                number(all.p95),
+                number(errors.rmse()),
+                number(errors.rmse_of(is_near)),
+                number(errors.rmse_of([&](Eigen::Index i) { return !is_near(i); })),
+                number(errors.all().p95),
                 done.radius > 0 ? number(done.radius) : Cell("-"),
                 done.seconds > 0 ? number(done.seconds, 2) : Cell("-")};
     };

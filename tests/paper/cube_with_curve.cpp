@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "tests/paper/errors.h"
 #include "tests/paper/experiments.h"
 #include "tests/support/metrics.h"
 
@@ -9,23 +10,19 @@ namespace {
 std::vector<Cell> row_of(const std::string& name, const TestShape& shape, const Points& points,
                          double seconds) {
     // Of a result nobody knows which point is on the curve: those outside of the cube are.
-    std::vector<std::uint8_t> outside;
-    for (Eigen::Index i = 0; i < points.cols(); ++i) {
-        outside.push_back(points.col(i).cwiseAbs().maxCoeff() > 2.1);
-    }
-
-    std::vector<std::uint8_t> at_crossing;  // where the curve goes through the face x = 2
+    const auto outside = [&](Eigen::Index i) { return points.col(i).cwiseAbs().maxCoeff() > 2.1; };
     const test::Vector3d crossing(2, 0.8 * std::sin(3.0), 0.5 * std::cos(2.4));
-    for (Eigen::Index i = 0; i < points.cols(); ++i) {
-        at_crossing.push_back((points.col(i) - crossing).norm() < 0.25);
-    }
+    const auto at_crossing = [&](Eigen::Index i) {
+        return (points.col(i) - crossing).norm() < 0.25;
+    };
+    const Errors errors(points, shape);
     const auto coverage = test::coverage_of_shape(shape, points);
     const auto gaps = test::nearest_neighbour_stats(points);
     return {name,
             number(double(points.cols()), 1),
-            number(test::error_to_shape(points, shape).rmse),
-            number(test::error_to_shape(points, shape, outside).rmse),
-            number(test::error_to_shape(points, shape, at_crossing).rmse),
+            number(errors.rmse()),
+            number(errors.rmse_of(outside)),
+            number(errors.rmse_of(at_crossing)),
             number(coverage.surface),
             number(coverage.curve),
             number(gaps.mean),

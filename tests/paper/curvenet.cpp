@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "tests/paper/errors.h"
 #include "tests/paper/experiments.h"
 #include "tests/support/metrics.h"
 
@@ -16,14 +17,15 @@ struct Level {
     double lpf;
 };
 
-std::vector<Cell> errors(const std::string& name, const TestShape& shape, const Points& points) {
-    std::vector<std::uint8_t> surface = shape.on_curve();
-    for (auto& flag : surface) flag = !flag;
+std::vector<Cell> row_of(const std::string& name, const TestShape& shape, const Points& points,
+                         const Errors& errors) {
+    const std::vector<std::uint8_t> on_curve = shape.on_curve();
+    const auto curve = [&](Eigen::Index i) { return on_curve[std::size_t(i)] != 0; };
     const auto coverage = test::coverage_of_shape(shape, points);
     return {name,
-            number(test::error_to_shape(points, shape).rmse),
-            number(test::error_to_shape(points, shape, surface).rmse),
-            number(test::error_to_shape(points, shape, shape.on_curve()).rmse),
+            number(errors.rmse()),
+            number(errors.rmse_of([&](Eigen::Index i) { return !curve(i); })),
+            number(errors.rmse_of(curve)),
             number(coverage.surface),
             number(coverage.curve),
             number(coverage.border),
@@ -75,20 +77,20 @@ Section curvenet(const Settings& settings) {
         if (level.noise == levels[0].noise) {
             const Denoised theirs =
                 denoise_with(shape.points, paper_request(0.5, 193, 16), settings);
-            by_paper = number(test::error_to_shape(theirs.points, shape).rmse);
+            by_paper = number(Errors(theirs.points, shape).rmse());
             draw(section, settings, shape, done.points);
         }
-        const double error = test::error_to_shape(done.points, shape).rmse;
+        const Errors before(shape.points, shape), after(done.points, shape);
+        const double error = after.rmse();
         below_paper &= error < level.lpf;
         below_others &= error < std::min({level.apss, level.rimls, level.bilateral, level.wlop});
         const std::string name = number(level.noise).text;
-        section.tables[0].rows.push_back(
-            {name, number(level.apss), number(level.rimls), number(level.bilateral),
-             number(level.wlop), number(level.lpf),
-             number(test::error_to_shape(shape.points, shape).rmse), number(error),
-             number(done.radius), number(done.seconds, 2), by_paper});
-        section.tables[1].rows.push_back(errors(name + ", input", shape, shape.points));
-        section.tables[1].rows.push_back(errors(name + ", result", shape, done.points));
+        section.tables[0].rows.push_back({name, number(level.apss), number(level.rimls),
+                                          number(level.bilateral), number(level.wlop),
+                                          number(level.lpf), number(before.rmse()), number(error),
+                                          number(done.radius), number(done.seconds, 2), by_paper});
+        section.tables[1].rows.push_back(row_of(name + ", input", shape, shape.points, before));
+        section.tables[1].rows.push_back(row_of(name + ", result", shape, done.points, after));
     }
     section.note =
         "Coverage is the RMS distance from the exact shape to the points: it would grow if points "

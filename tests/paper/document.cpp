@@ -20,7 +20,7 @@ scripts/paper.sh --fandisk fandisk.ply
 and by nothing else. The paper's scans are not part of the project: shapes made here stand in for
 them, for which the exact answer is known, so that errors can be measured where the paper shows
 pictures. Errors are distances from the points to the exact shape, RMSE their root mean square, in the
-unit of the shape and, of a million points and more, on every k-th of them; coverage is the RMS distance the other way, from the exact shape to the points. Parameters called
+unit of the shape and, of more than 400 000 points, of every k-th; coverage is the RMS distance the other way, from the exact shape to the points. Parameters called
 automatic are what the service chooses when nothing is given. After each experiment stands what the
 paper says about it, and whether the numbers above bear it out; the program decides that, not the
 author of this page.

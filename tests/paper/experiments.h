@@ -28,6 +28,9 @@ Section head_denoising(const Settings& settings);      // Fig. 19
 Section curvenet(const Settings& settings);            // Fig. 20 and Table 1
 Section timing(const Settings& settings);              // Sec. 4.3
 
+/// The head on which Fig. 6 and Sec. 3.3 are rerun.
+TestShape analysed_head(const Settings& settings);
+
 struct Experiment {
     std::string name;
     Section (*run)(const Settings&);

@@ -1,3 +1,4 @@
+#include "tests/paper/errors.h"
 #include "tests/paper/experiments.h"
 #include "tests/paper/fandisk.h"
 
@@ -9,13 +10,13 @@ constexpr double kNear = 0.02;  // of an edge, about three spacings of a million
 std::vector<Cell> row_of(const std::string& name, const FandiskBody& body, const TestShape& exact,
                          const Resampled& done) {
     const double diagonal = exact.diagonal();
-    const test::ErrorStats all = test::error_to_shape(done.points, exact);
-    const auto near = body.near_edges(done.points, kNear);
+    const Errors errors(done.points, exact);
+    const auto near = [&](Eigen::Index i) { return body.to_edges(done.points.col(i)) < kNear; };
     return {name,
             number(double(done.points.cols()), 1),
-            number(100 * all.rmse / diagonal),
-            number(100 * all.max / diagonal),
-            number(100 * test::error_to_shape(done.points, exact, near).rmse / diagonal),
+            number(100 * errors.rmse() / diagonal),
+            number(100 * errors.all().max / diagonal),
+            number(100 * errors.rmse_of(near) / diagonal),
             number(100 * test::coverage(body.on_edges, done.points) / diagonal),
             number(100 * done.spacing / diagonal),
             number(done.seconds, 2)};

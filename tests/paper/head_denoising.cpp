@@ -1,5 +1,5 @@
+#include "tests/paper/errors.h"
 #include "tests/paper/experiments.h"
-#include "tests/support/metrics.h"
 
 namespace lpf::paper {
 
@@ -18,7 +18,7 @@ Section head_denoising(const Settings& settings) {
         .tables = {
             {{"points", "RMSE", "95 % of errors below", "largest error", "radius", "seconds"}}}};
     const auto row_of = [&](const std::string& name, const Denoised& done) -> std::vector<Cell> {
-        const test::ErrorStats all = test::error_to_shape(done.points, shape);
+        const test::ErrorStats all = Errors(done.points, shape).all();
         return {name,
                 number(all.rmse),
                 number(all.p95),

@@ -49,6 +49,14 @@ Settings settings_of(const Command& command) {
     return settings;
 }
 
+void write(const std::string& path, const std::string& text) {
+    std::ofstream file(path, std::ios::binary);
+    file << text;
+    if (!file.flush()) {
+        throw Error(ErrorCode::StorageFailure, "Writing " + path + " failed.");
+    }
+}
+
 int run(const Command& command) {
     const Settings settings = settings_of(command);
     std::vector<Finished> finished;
@@ -61,11 +69,7 @@ int run(const Command& command) {
         done.seconds = seconds_of([&] { done.section = experiment.run(settings); });
         std::cerr << " " << number(done.seconds, 2).text << " s\n";
         finished.push_back(std::move(done));
-    }
-    std::ofstream file(command.output, std::ios::binary);
-    file << document(finished, command.origin);
-    if (!file.flush()) {
-        throw Error(ErrorCode::StorageFailure, "Writing " + command.output + " failed.");
+        write(command.output, document(finished, command.origin));  // so that a break loses little
     }
     std::cerr << "Written to " << command.output << "\n";
     return 0;

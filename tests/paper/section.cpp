@@ -27,12 +27,14 @@ std::string markdown(const Table& table) {
     return text + "\n";
 }
 
+constexpr double kNothing = 1e-9;  // what rounding leaves of zero
+
 }  // namespace
 
 Cell number(double value, int digits) {
     if (!std::isfinite(value)) return {"-"};
-    const int before =
-        value == 0 ? 1 : static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
+    if (std::abs(value) < kNothing) return {"0", value};
+    const int before = static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1;
     std::ostringstream out;
     out << std::fixed << std::setprecision(std::max(0, digits - before)) << value;
     return {out.str(), value};

@@ -1,8 +1,8 @@
 #include <cmath>
 
+#include "tests/paper/errors.h"
 #include "tests/paper/experiments.h"
 #include "tests/support/meshes.h"
-#include "tests/support/metrics.h"
 
 namespace lpf::paper {
 
@@ -31,8 +31,8 @@ Section sphere_radius(const Settings& settings) {
         const Eigen::VectorXd reach = done.points.colwise().norm();
         const double to_sphere = std::sqrt((reach.array() - reach.mean()).square().mean());
         section.tables[0].rows.push_back(
-            {number(radius, 2).text, number(test::error_to_shape(done.points, facets).rmse),
-             number(to_sphere), number(double(done.points.cols()), 1), number(done.seconds, 2)});
+            {number(radius, 2).text, number(Errors(done.points, facets).rmse()), number(to_sphere),
+             number(double(done.points.cols()), 1), number(done.seconds, 2)});
         results.push_back(done.points);
     }
     const Table& table = section.tables[0];

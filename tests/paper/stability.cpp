@@ -22,10 +22,13 @@ Section stability(const Settings& settings) {
             "relative to its mean is what compares.",
         .tables = {
             {{"", "runs", "mean", "standard deviation", "deviation / mean", "least", "largest"}}}};
-    const TestShape head =
-        test::make_head({.points = settings.points(100000), .noise = 0.05, .seed = 6});
-    AnalysisParams params{
-        .radius = 0.7, .seed_spacing = 1.0, .atoms = 32, .lambda = 0.2, .iterations = 10};
+    const TestShape head = analysed_head(settings);
+    AnalysisParams params{.radius = 0.7,
+                          .seed_spacing = 1.0,
+                          .atoms = 32,
+                          .lambda = 0.2,
+                          .iterations = 10,
+                          .learning_rounds = 1};
     const Shape shape = cloud_of(head.points);
     FieldSet fields(shape, params, settings.execution);
     fields.optimise_poses(params.pose_iterations, settings.execution);

@@ -1,5 +1,6 @@
 #include "tests/paper/upsampling.h"
 
+#include "tests/paper/errors.h"
 #include "tests/paper/experiments.h"
 #include "tests/support/metrics.h"
 
@@ -10,7 +11,7 @@ Table upsampling_table(const TestShape& shape, const Resampled& result) {
                  "of curves", "of borders", "seconds"}};
     const auto add = [&](const std::string& name, const Points& points, const Cell& seconds) {
         const auto coverage = test::coverage_of_shape(shape, points);
-        const test::ErrorStats all = test::error_to_shape(thinned(points), shape);
+        const test::ErrorStats all = Errors(points, shape).all();
         table.rows.push_back({name, number(double(points.cols()), 1), number(all.rmse),
                               number(all.p95), number(coverage.surface), number(coverage.curve),
                               number(coverage.border), seconds});

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/shape/normals.h"
+#include "tests/paper/errors.h"
 #include "tests/support/metrics.h"
 
 namespace lpf::paper {
@@ -58,12 +59,6 @@ double seconds_of(const std::function<void()>& work) {
     const auto begin = std::chrono::steady_clock::now();
     work();
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-Points thinned(const Points& points, Eigen::Index most) {
-    const Eigen::Index step = 1 + (points.cols() - 1) / most;
-    if (step <= 1) return points;
-    return points(Eigen::all, Eigen::seq(0, points.cols() - 1, step));
 }
 
 Shape cloud_of(const Points& points) { return {{points, {}}, {}}; }

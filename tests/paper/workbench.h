@@ -49,9 +49,6 @@ struct Resampled {
                                       const Settings& settings,
                                       const std::function<void(ResampleParams&)>& adjust = {});
 
-/// Every k-th point, so that at most 300 000 are left: what errors are measured on.
-[[nodiscard]] Points thinned(const Points& points, Eigen::Index most = 300'000);
-
 [[nodiscard]] Shape cloud_of(const Points& points);
 
 /// Seconds that `work` takes.
