@@ -59,6 +59,12 @@ std::string document(const std::vector<Finished>& finished, const Origin& origin
         << list << "\n";
     for (const Finished& each : finished) out << markdown(each.section, each.seconds) << "\n";
     out << kLeftOut;
+    if (!origin.not_run.empty()) {
+        out << "\nNot run this time:";
+        for (const std::string& name : origin.not_run) out << " `" << name << "`";
+        out << ".\n";
+    }
+
     return out.str();
 }
 

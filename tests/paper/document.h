@@ -18,6 +18,7 @@ struct Origin {
     std::string machine = "an unnamed machine";
     std::string commit = "unknown";
     int threads = 2;
+    std::vector<std::string> not_run = {};  ///< experiments that were left out this time
 };
 
 /// The whole document: how it was made, a list of all claims, the experiments, what is left out.

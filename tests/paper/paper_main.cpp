@@ -57,19 +57,26 @@ void write(const std::string& path, const std::string& text) {
     }
 }
 
+bool is_wanted(const Command& command, const std::string& name) {
+    return command.only.empty() || std::ranges::count(command.only, name) > 0;
+}
+
 int run(const Command& command) {
     const Settings settings = settings_of(command);
+    Origin origin = command.origin;
+    for (const Experiment& experiment : experiments()) {
+        if (!is_wanted(command, experiment.name)) origin.not_run.push_back(experiment.name);
+    }
     std::vector<Finished> finished;
     for (const Experiment& experiment : experiments()) {
-        if (!command.only.empty() && std::ranges::count(command.only, experiment.name) == 0) {
-            continue;
-        }
+        if (!is_wanted(command, experiment.name)) continue;
+
         std::cerr << experiment.name << " ..." << std::flush;
         Finished done;
         done.seconds = seconds_of([&] { done.section = experiment.run(settings); });
         std::cerr << " " << number(done.seconds, 2).text << " s\n";
         finished.push_back(std::move(done));
-        write(command.output, document(finished, command.origin));  // so that a break loses little
+        write(command.output, document(finished, origin));  // so that a break loses little
     }
     std::cerr << "Written to " << command.output << "\n";
     return 0;

@@ -36,12 +36,13 @@ TEST(PaperDocument, SaysWhatHoldsAndWhatDoesNot) {
     const Section section{.title = "Fig. 99: a test",
                           .tables = {{{"a", "b"}, {{"row", number(0.25)}}}},
                           .claims = {{"yes", true}, {"no", false}}};
-    const std::string text = document({{section, 3.0}}, {"a machine", "abc", 2});
+    const std::string text = document({{section, 3.0}}, {"a machine", "abc", 2, {"ship"}});
     EXPECT_THAT(text, HasSubstr("| row | 0.250 |"));
     EXPECT_THAT(text, HasSubstr("- holds: yes"));
     EXPECT_THAT(text, HasSubstr("- **does not hold**: no"));
     EXPECT_THAT(text, HasSubstr("Of 2 statements 1 hold"));
     EXPECT_THAT(text, HasSubstr("commit abc"));
+    EXPECT_THAT(text, HasSubstr("Not run this time: `ship`."));
 }
 
 void expect_all_hold(const Section& section) {
