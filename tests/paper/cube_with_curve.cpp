@@ -74,11 +74,11 @@ Section cube_with_curve(const Settings& settings) {
                 "distance to the exact shape (yellow: .02 and more).",
                 [&] {
                     const test::View view{
-                        .azimuth = -35, .elevation = 25, .centre = {2.2, 0, 0}, .extent = 2.4};
+                        .azimuth = 40, .elevation = 25, .centre = {2.2, 0, 0}, .extent = 2.4};
                     return render_side_by_side(
                         {distance_scene(shape.points, shape, 0.02, "input", view),
                          distance_scene(by_itself.points, shape, 0.02, "resampled", view)},
-                        view, {1000, 440});
+                        view, {760, 330});
                 });
     return section;
 }

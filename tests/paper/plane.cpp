@@ -42,8 +42,7 @@ Section plane(const Settings& settings) {
                                           number(stats.mean), number(stats.deviation, 2),
                                           number(stats.min), number(stats.max), percent(share)});
         charts.push_back(test::histogram(stats.distances, 0, 2.0 / grid, 40,
-                                         {name, "distance to the nearest point", "% of points"},
-                                         {360, 260}));
+                                         {name, "distance", "% of points"}, {360, 260}));
     }
     add_picture(section, settings, "plane", "Histograms of the distance to the nearest neighbour.",
                 [&] { return beside_each_other(charts); });

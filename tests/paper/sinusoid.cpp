@@ -10,7 +10,8 @@
 namespace lpf::paper {
 namespace {
 
-constexpr double kWave = 0.32;  // z = height sin(x / kWave): a period of about 2
+constexpr double kHeight = 0.25;
+constexpr double kWave = 0.32;  // z = kHeight sin(x / kWave): a period of about 2
 constexpr double kRadius = 2.0;
 constexpr int kFields = 100;
 
@@ -91,27 +92,34 @@ void release(FieldSet& fields) {
     }
 }
 
-/// The patterns where they lie, over the surface.
+/// A mark on the surface for each LPF: at its seed, long in the direction of its first axis.
+Points marks(const std::vector<Frame>& frames) {
+    constexpr int kLong = 14, kWide = 4;
+    constexpr double kStep = 0.045;
+    Points result(3, static_cast<Eigen::Index>(frames.size()) * kLong * kWide);
+    Eigen::Index next = 0;
+    for (const Frame& frame : frames) {
+        const Eigen::Matrix3d axes = frame.axes.cast<double>();
+        for (int i = 0; i < kLong * kWide; ++i) {
+            const double along = kStep * (i % kLong - 0.5 * (kLong - 1));
+            const double across = kStep * (i / kLong - 0.5 * (kWide - 1));
+            Eigen::Vector3d at = frame.seed() + along * axes.col(0) + across * axes.col(1);
+            at.z() = kHeight * std::sin(at.x() / kWave) + 0.06;
+            result.col(next++) = at;
+        }
+    }
+    return result;
+}
+
 test::Scene scene_of(const TestShape& shape, const AnalysisResult& state, const std::string& label,
                      const test::View& view) {
     test::Scene scene = plain_scene(shape.points, label, view);
-    const Pattern& pattern = state.dictionary.pattern();
-    Points disks(3, static_cast<Eigen::Index>(state.frames.size()) * pattern.size());
-    Eigen::Matrix3Xf normals(3, disks.cols());
-    Eigen::Index next = 0;
-    for (const Frame& frame : state.frames) {
-        for (int i = 0; i < pattern.size(); ++i) {
-            if (pattern.point(i).norm() > 0.2F) continue;  // the middle of each is enough to see
-            disks.col(next) = frame.to_world(pattern.point(i));
-            normals.col(next++) = frame.axes.col(2);
-        }
-    }
-    Points all(3, scene.points.cols() + next);
-    all << scene.points, disks.leftCols(next);
-    Eigen::Matrix3Xf all_normals(3, all.cols());
-    all_normals << scene.normals, normals.leftCols(next);
-    scene.points = std::move(all);
-    scene.normals = std::move(all_normals);
+    const Points on_top = marks(state.frames);
+    const Eigen::Index below = scene.points.cols();
+    scene.points.conservativeResize(3, below + on_top.cols());
+    scene.points.rightCols(on_top.cols()) = on_top;
+    scene.normals.conservativeResize(3, scene.points.cols());
+    scene.normals.rightCols(on_top.cols()).colwise() = Eigen::Vector3f(-0.4F, -0.4F, 0.8F);
     scene.colours.resize(static_cast<std::size_t>(scene.points.cols()),
                          test::Colour(0.14F, 0.36F, 0.56F));
     return scene;
@@ -135,7 +143,7 @@ Section sinusoid(const Settings& settings) {
             "the atom. `share of a wave` is how much of the atom one plane wave explains.",
         .tables = {{{"iteration", "energy per LPF", "alignment of places", "of frames",
                      "share of a wave"}}}};
-    const test::WavySheet sheet{.half = 6, .height = 0.25, .wave_x = kWave, .wave_y = 1e9};
+    const test::WavySheet sheet{.half = 6, .height = kHeight, .wave_x = kWave, .wave_y = 1e9};
     const TestShape shape = test::sampled({"sinusoid", {wavy_sheet(sheet)}},
                                           {.points = settings.points(60000), .seed = 5});
     const Shape cloud = cloud_of(shape.points);
@@ -172,7 +180,8 @@ Section sinusoid(const Settings& settings) {
         {"the LPFs align in their places", table.at(last, "alignment of places") > 0.5},
         {"the atom is a smooth sinusoid: one wave explains four fifths of it",
          table.at(last, "share of a wave") > 0.8}};
-    add_picture(section, settings, "sinusoid", "The surface, and the middle of each LPF on it.",
+    add_picture(section, settings, "sinusoid",
+                "The surface, and a mark at each seed, long in the direction of its first axis.",
                 [&] {
                     return render_side_by_side(scenes, view, {1000, 280});
                 });

@@ -48,7 +48,7 @@ Section ship(const Settings& settings) {
             .azimuth = -60, .elevation = 25, .centre = {8, -8, 2.5}, .extent = 11};
         return render_side_by_side(
             {plain_scene(shape.points, "input", view), plain_scene(done.points, "resampled", view)},
-            view, {1000, 400});
+            view, {800, 330});
     });
     return section;
 }

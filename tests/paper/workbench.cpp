@@ -146,7 +146,7 @@ void add_picture(Section& section, const Settings& settings, const std::string& 
     if (settings.picture_folder.empty()) return;
     const std::string path = settings.picture_folder + "/" + name + ".png";
     const Image picture = draw();
-    for (int colours = 256; colours >= 8; colours /= 2) {
+    for (int colours = 256; colours >= 16; colours /= 2) {
         picture.save_png(path, colours);
         if (std::filesystem::file_size(path) < kLargestPicture) break;
     }
