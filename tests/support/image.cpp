@@ -8,8 +8,28 @@
 #include <cstdint>
 
 #include "core/base/error.h"
+#include "tests/support/palette.h"
 
 namespace lpf::test {
+namespace {
+
+png_image png_of(const Image& image, png_uint_32 format) {
+    png_image png{};
+    png.version = PNG_IMAGE_VERSION;
+    png.width = static_cast<png_uint_32>(image.width());
+    png.height = static_cast<png_uint_32>(image.height());
+    png.format = format;
+    return png;
+}
+
+void write_png(const std::string& path, png_image png, const void* pixels, const void* palette) {
+    if (!png_image_write_to_file(&png, path.c_str(), 0, pixels, 0, palette)) {
+        throw Error(ErrorCode::StorageFailure,
+                    "The picture " + path + " could not be written: " + png.message + ".");
+    }
+}
+
+}  // namespace
 
 Image::Image(int width, int height, const Colour& background)
     : width_(width),
@@ -35,8 +55,8 @@ void Image::paste(const Image& other, int x, int y) {
     }
 }
 
-void Image::stroke(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width,
-                   const Colour& colour) {
+void Image::line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width,
+                 const Colour& colour) {
     const double half = width / 2;
     const Eigen::Vector2d low = from.cwiseMin(to).array() - half - 1;
     const Eigen::Vector2d high = from.cwiseMax(to).array() + half + 2;
@@ -62,15 +82,14 @@ void Image::save_png(const std::string& path) const {
                 static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(pixel[c], 0.0F, 1.0F))));
         }
     }
-    png_image png{};
-    png.version = PNG_IMAGE_VERSION;
-    png.width = static_cast<png_uint_32>(width_);
-    png.height = static_cast<png_uint_32>(height_);
-    png.format = PNG_FORMAT_RGB;
-    if (!png_image_write_to_file(&png, path.c_str(), 0, bytes.data(), 0, nullptr)) {
-        throw Error(ErrorCode::StorageFailure,
-                    "The picture " + path + " could not be written: " + png.message + ".");
-    }
+    write_png(path, png_of(*this, PNG_FORMAT_RGB), bytes.data(), nullptr);
+}
+
+void Image::save_png(const std::string& path, int colours) const {
+    const IndexedPicture picture = with_few_colours(*this, colours);
+    png_image png = png_of(*this, PNG_FORMAT_RGB_COLORMAP);
+    png.colormap_entries = static_cast<png_uint_32>(picture.palette.size());
+    write_png(path, png, picture.indices.data(), picture.palette.data());
 }
 
 Colour colour_scale(double value) {

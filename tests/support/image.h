@@ -27,16 +27,21 @@ public:
     /// Writes `text` with strokes; letters are `size` pixels high. Unknown characters are blanks.
     void write(const std::string& text, int x, int y, double size, const Colour& colour);
 
+    /// Draws a straight line with round ends, `width` pixels wide.
+    void line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width,
+              const Colour& colour);
+
     /// @throws Error{StorageFailure} if the file cannot be written
     void save_png(const std::string& path) const;
+
+    /// The same in `colours` colours at most, 1 to 256: a much smaller file.
+    void save_png(const std::string& path, int colours) const;
 
 private:
     [[nodiscard]] std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                static_cast<std::size_t>(x);
     }
-    void stroke(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double width,
-                const Colour& colour);
 
     int width_;
     int height_;

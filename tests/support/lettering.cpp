@@ -75,8 +75,8 @@ void Image::write(const std::string& text, int x, int y, double size, const Colo
         for (std::size_t i = 0; i + 3 < lines.size(); i += 2) {
             if (lines[i] == ' ') ++i;
             if (i + 3 >= lines.size() || lines[i + 2] == ' ') continue;
-            stroke(corner + unit * node(lines[i], lines[i + 1]),
-                   corner + unit * node(lines[i + 2], lines[i + 3]), 0.9 * unit, colour);
+            line(corner + unit * node(lines[i], lines[i + 1]),
+                 corner + unit * node(lines[i + 2], lines[i + 3]), 0.9 * unit, colour);
         }
         corner.x() += 6 * unit;
     }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -55,6 +56,62 @@ TEST(Icosphere, IsClosedAndNearlyASphere) {
     EXPECT_NEAR(measured.area, 16 * std::numbers::pi, 0.2);
     EXPECT_NEAR(measured.volume, 32 * std::numbers::pi / 3, 0.15);
     EXPECT_TRUE((sphere.cloud.points.colwise().norm().array() - 2.0).abs().maxCoeff() < 1e-12);
+}
+
+TEST(Globe, HasTheVerticesThatWereAskedFor) {
+    const Shape sphere = globe(1.0, 7, 14);
+    const Measured measured = measure(sphere);
+    EXPECT_EQ(sphere.size(), 100U);
+    EXPECT_EQ(sphere.triangles.cols(), 2 * 14 * 7);
+    EXPECT_EQ(measured.boundary_edges, 0);
+    EXPECT_GT(measured.volume, 0.9 * 4 * std::numbers::pi / 3);
+    EXPECT_TRUE((sphere.cloud.points.colwise().norm().array() - 1.0).abs().maxCoeff() < 1e-12);
+}
+
+TEST(PyramidMesh, IsEngravedAndOpenBelow) {
+    const Shape pyramid = pyramid_mesh();
+    const Measured measured = measure(pyramid);
+    EXPECT_EQ(measured.boundary_edges, 4);
+    const double smooth_area = 2 * 80 * std::hypot(40.0, 54.34);
+    EXPECT_GT(measured.area, 1.05 * smooth_area);
+    EXPECT_LT(measured.area, 1.3 * smooth_area);
+    EXPECT_LT(measured.volume, 80 * 80 * 54.34 / 3);
+    EXPECT_GT(measured.volume, 0.95 * 80 * 80 * 54.34 / 3);
+    for (int k = 0; k < 4; ++k) EXPECT_EQ(pyramid.cloud.points(2, k), 0.0);
+}
+
+TEST(DiskSegmentMesh, IsClosedWithThePapersDiagonal) {
+    const Shape body = disk_segment_mesh();
+    const Measured measured = measure(body);
+    EXPECT_EQ(measured.boundary_edges, 0);
+    EXPECT_GT(measured.volume, 1.0);
+    const Eigen::Vector3d size =
+        body.cloud.points.rowwise().maxCoeff() - body.cloud.points.rowwise().minCoeff();
+    EXPECT_NEAR(size.norm(), 7.6156, 0.001);
+}
+
+TEST(HeadMesh, IsClosedAndRough) {
+    const Shape head = head_mesh();
+    const Measured measured = measure(head);
+    EXPECT_EQ(measured.boundary_edges, 0);
+    const Eigen::Vector3d size =
+        head.cloud.points.rowwise().maxCoeff() - head.cloud.points.rowwise().minCoeff();
+    EXPECT_NEAR(size.norm(), 51.96, 1e-9);
+    // A smooth body of this volume and shape has less area than one with locks.
+    EXPECT_GT(measured.area,
+              1.05 * std::cbrt(36 * std::numbers::pi * std::pow(measured.volume, 2)));
+}
+
+TEST(SharpEdges, OfACubeAreItsTwelve) {
+    const Shape cube = cube_mesh(1.0, 2);
+    const Triangles edges = sharp_edges(cube);
+    EXPECT_EQ(edges.cols(), 24) << "each edge of two cells";
+    for (Eigen::Index i = 0; i < edges.cols(); ++i) {
+        const Eigen::Vector3d middle =
+            (cube.cloud.points.col(edges(0, i)) + cube.cloud.points.col(edges(1, i))) / 2;
+        EXPECT_EQ((middle.array().abs() == 1.0).count(), 2) << middle.transpose();
+    }
+    EXPECT_EQ(sharp_edges(icosphere(1.0, 3)).cols(), 0);
 }
 
 TEST(PlaneGrid, IsOpenAndFlat) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/random.h"
+#include "core/shape/shape.h"
 #include "tests/support/bvh.h"
 
 namespace lpf::test {
@@ -31,6 +32,9 @@ PiecePtr rectangle(const Vector3d& corner, const Vector3d& edge_u, const Vector3
 PiecePtr sphere_surface(const Vector3d& centre, double radius);
 
 PiecePtr segment(const Vector3d& from, const Vector3d& to);
+
+/// All triangles of a mesh as one surface. Exact to rounding.
+PiecePtr mesh_surface(const Shape& mesh);
 
 /// c(t) for t in [begin, end]. Distances: nearest piece of a polyline of 2048 parts, then a search
 /// in t around it; exact to about 1e-8 of the length while the curve bends little within a part.

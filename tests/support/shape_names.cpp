@@ -12,7 +12,7 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
     static const std::vector<std::pair<std::string, Maker>> table = {
         {"plane", make_plane},
         {"sphere", make_sphere},
-        {"cube", make_cube},
+        {"cube", [](const Sampling& sampling) { return make_cube(sampling); }},
         {"thin_plate", [](const Sampling& sampling) { return make_thin_plate(sampling); }},
         {"fin", [](const Sampling& sampling) { return make_fin(sampling); }},
         {"crossing_curves", make_crossing_curves},
@@ -25,6 +25,10 @@ const std::vector<std::pair<std::string, Maker>>& makers() {
         {"circle", make_circle},
         {"helix", make_helix},
         {"curvenet", make_curvenet},
+        {"pyramid", make_pyramid},
+        {"disk_segment", make_disk_segment},
+        {"head", make_head},
+        {"shutter", make_shutter},
     };
     return table;
 }

@@ -105,6 +105,7 @@ Points sample_pieces(const std::vector<PiecePtr>& pieces, std::size_t count, std
     return points;
 }
 
+
 TestShape make_plane(const Sampling& sampling) {
     return sampled({"plane", {unit_sheet(0)}, border_of_unit_sheet(0)}, sampling);
 }
@@ -113,8 +114,8 @@ TestShape make_sphere(const Sampling& sampling) {
     return sampled({"sphere", {sphere_surface(Vector3d::Zero(), 1)}}, sampling);
 }
 
-TestShape make_cube(const Sampling& sampling) {
-    return sampled({"cube", cube_faces(1), {}, {}, cube_edges(1)}, sampling);
+TestShape make_cube(const Sampling& sampling, double half) {
+    return sampled({"cube", cube_faces(half), {}, {}, cube_edges(half)}, sampling);
 }
 
 TestShape make_thin_plate(const Sampling& sampling, double gap) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/shape/point_cloud.h"
+#include "core/shape/shape.h"
 #include "tests/support/pieces.h"
 
 namespace lpf::test {
@@ -54,7 +54,9 @@ Points sample_pieces(const std::vector<PiecePtr>& pieces, std::size_t count, std
 
 TestShape make_plane(const Sampling& sampling);   ///< [-1, 1]^2 at z = 0
 TestShape make_sphere(const Sampling& sampling);  ///< radius 1
-TestShape make_cube(const Sampling& sampling);    ///< hollow, [-1, 1]^3
+
+/// Hollow, [-half, half]^3.
+TestShape make_cube(const Sampling& sampling, double half = 1.0);
 
 /// Two sheets [-1, 1]^2 at z = +-gap / 2.
 TestShape make_thin_plate(const Sampling& sampling, double gap = 0.08);
@@ -86,6 +88,16 @@ TestShape make_helix(const Sampling& sampling);   ///< radius 1, three turns, he
 /// An open wavy sheet under a net of curves: eight arches and four posts, one tenth of the points
 /// on them. The default of 400 000 points is the benchmark's.
 TestShape make_curvenet(const Sampling& sampling = {.points = 400000});
+
+/// The surface of a mesh, uniform by area.
+TestShape make_from_mesh(std::string name, const Shape& mesh, const Sampling& sampling);
+
+TestShape make_pyramid(const Sampling& sampling);       ///< pyramid_mesh(), diagonal 125.5
+TestShape make_disk_segment(const Sampling& sampling);  ///< disk_segment_mesh(), diagonal 7.6
+TestShape make_head(const Sampling& sampling);          ///< head_mesh(), diagonal 52
+
+/// A frame of 1 x 1.8 around 24 tilted slats, all of them open sheets; diagonal 2.06.
+TestShape make_shutter(const Sampling& sampling);
 
 /// The names that make_shape knows: each function above without its make_.
 const std::vector<std::string>& shape_names();

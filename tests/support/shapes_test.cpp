@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "core/base/error.h"
+#include "tests/support/meshes.h"
 #include "tests/support/metrics.h"
 
 namespace lpf::test {
@@ -114,6 +115,24 @@ TEST(Shapes, IsolatedPointsAreFarAndFlagged) {
             EXPECT_GE(shape.distance(shape.points.col(static_cast<Eigen::Index>(i))), 0.8);
         }
     }
+}
+
+TEST(Shapes, MeshSamplesAreUniformByArea) {
+    const TestShape cube = make_from_mesh("mesh", cube_mesh(1.0, 3), {.points = 60000});
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto on_face = (cube.points.row(axis).array() == 1.0).count();
+        EXPECT_NEAR(static_cast<double>(on_face), 10000, 500);
+    }
+    const auto in_corner = ((cube.points.array() > 1.0 / 3).colwise().all()).count();
+    EXPECT_NEAR(static_cast<double>(in_corner), 60000.0 / 18, 250);
+}
+
+TEST(Shapes, BodiesHaveTheDiagonalsOfThePaper) {
+    EXPECT_NEAR(make_pyramid({.points = 10}).diagonal(), 125.51, 0.01);
+    EXPECT_NEAR(make_disk_segment({.points = 10}).diagonal(), 7.6156, 0.001);
+    EXPECT_NEAR(make_head({.points = 10}).diagonal(), 51.96, 0.01);
+    EXPECT_NEAR(make_shutter({.points = 10}).diagonal(), 2.07, 0.02);
+    EXPECT_NEAR(make_cube({.points = 10}, 4.54 / std::sqrt(3.0)).diagonal(), 9.08, 1e-9);
 }
 
 TEST(Shapes, CubeWithCurveHasThePapersDiagonal) {
