@@ -105,7 +105,6 @@ Points sample_pieces(const std::vector<PiecePtr>& pieces, std::size_t count, std
     return points;
 }
 
-
 TestShape make_plane(const Sampling& sampling) {
     return sampled({"plane", {unit_sheet(0)}, border_of_unit_sheet(0)}, sampling);
 }
