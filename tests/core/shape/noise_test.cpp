@@ -44,6 +44,18 @@ TEST(Measure, DensityRadiusHoldsAbout150Points) {
     EXPECT_NEAR(10000 / 4.0 * 3.14159 * radius * radius, 150, 15);
 }
 
+TEST(Measure, ThicknessOfAPlateIsNotTakenForNoise) {
+    // Two sheets four sigma apart: one plane through both is 2.2 sigma from the points.
+    const Points points = test::make_thin_plate({.points = 20000, .noise = 0.02}, 0.08).points;
+    EXPECT_NEAR(measure(points, {}).noise, 0.02, 0.15 * 0.02);
+}
+
+TEST(Measure, EdgesAreNotTakenForNoise) {
+    // A wide ball is needed; most balls that are wide enough hold an edge.
+    const Points points = test::make_cube({.points = 40000, .noise = 0.2}).points;
+    EXPECT_NEAR(measure(points, {}).noise, 0.2, 0.2 * 0.2);
+}
+
 class NoiseOf : public testing::TestWithParam<double> {};
 
 TEST_P(NoiseOf, APlaneIsMeasured) {
