@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -143,29 +142,6 @@ Shape head_mesh() {
         head.cloud.points.col(i) *= head_reach(head.cloud.points.col(i));
     }
     return with_diagonal(std::move(head), 51.96);
-}
-
-Triangles sharp_edges(const Shape& mesh, double degrees) {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Vector3d> seen;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> sharp;
-    const double limit = std::cos(degrees * std::numbers::pi / 180);
-    for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
-        const auto at = [&](int c) -> Vector3d {
-            return mesh.cloud.points.col(mesh.triangles(c % 3, f));
-        };
-        const Vector3d normal = (at(1) - at(0)).cross(at(2) - at(0)).normalized();
-        for (int c = 0; c < 3; ++c) {
-            const auto edge = std::minmax(mesh.triangles(c, f), mesh.triangles((c + 1) % 3, f));
-            const auto [found, first] = seen.try_emplace({edge.first, edge.second}, normal);
-            if (!first && found->second.dot(normal) < limit) sharp.push_back(found->first);
-        }
-    }
-    Triangles result(3, static_cast<Eigen::Index>(sharp.size()));
-    for (std::size_t i = 0; i < sharp.size(); ++i) {
-        result.col(static_cast<Eigen::Index>(i)) << sharp[i].first, sharp[i].second,
-            sharp[i].second;
-    }
-    return result;
 }
 
 }  // namespace lpf::test

@@ -1,61 +1,13 @@
 #include "tests/support/mesh_shape.h"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
-#include <numbers>
 #include <utility>
 
-#include "tests/support/metrics.h"
+#include "tests/support/bvh.h"
+#include "tests/support/meshes.h"
 
 namespace lpf::test {
 namespace {
-
-/// (b - a) x (c - a) of a triangle: its normal, as long as twice its area.
-Vector3d area_normal(const Shape& mesh, Eigen::Index face) {
-    const Points& points = mesh.cloud.points;
-    const auto& corners = mesh.triangles.col(face);
-    const Vector3d a = points.col(corners[0]), b = points.col(corners[1]);
-    return (b - a).cross(Vector3d(points.col(corners[2])) - a);
-}
-
-class MeshSurface final : public Piece {
-public:
-    explicit MeshSurface(const Shape& mesh)
-        : mesh_(mesh), distance_(mesh.cloud.points, mesh.triangles) {
-        for (Eigen::Index f = 0; f < mesh.triangles.cols(); ++f) {
-            area_.push_back((area_.empty() ? 0.0 : area_.back()) + area_normal(mesh, f).norm() / 2);
-            for (int c = 0; c < 3; ++c) box_.extend(corner(f, c));
-        }
-    }
-
-    int dimension() const override { return 2; }
-    double measure() const override { return area_.back(); }
-    Vector3d sample(Random& random) const override {
-        const auto found =
-            std::upper_bound(area_.begin(), area_.end() - 1, random.uniform() * area_.back());
-        const auto f = static_cast<Eigen::Index>(found - area_.begin());
-        const double root = std::sqrt(random.uniform());  // uniform by area within the triangle
-        const double share = random.uniform();
-        return (1 - root) * corner(f, 0) + root * (1 - share) * corner(f, 1) +
-               root * share * corner(f, 2);
-    }
-    double squared_distance(const Vector3d& point) const override {
-        const double distance = distance_(point);
-        return distance * distance;
-    }
-    Eigen::AlignedBox3d box() const override { return box_; }
-
-private:
-    Vector3d corner(Eigen::Index face, int c) const {
-        return mesh_.cloud.points.col(mesh_.triangles(c, face));
-    }
-
-    Shape mesh_;
-    MeshDistance distance_;
-    std::vector<double> area_;  // up to and with each triangle
-    Eigen::AlignedBox3d box_;
-};
 
 /// Many segments as one piece, with a tree over them.
 class Segments final : public Piece {
@@ -90,26 +42,13 @@ private:
     Eigen::AlignedBox3d box_;
 };
 
-using Edge = std::pair<std::uint32_t, std::uint32_t>;
-
-/// The triangles at each edge.
-std::map<Edge, std::vector<Eigen::Index>> edges_of(const Triangles& triangles) {
-    std::map<Edge, std::vector<Eigen::Index>> faces;
-    for (Eigen::Index f = 0; f < triangles.cols(); ++f) {
-        for (int c = 0; c < 3; ++c) {
-            faces[std::minmax(triangles(c, f), triangles((c + 1) % 3, f))].push_back(f);
-        }
+/// The edges of a mesh that have a length, as one piece; none if there are none.
+std::vector<PiecePtr> joined(const Points& vertices, const Triangles& edges) {
+    std::vector<PiecePtr> parts;
+    for (Eigen::Index i = 0; i < edges.cols(); ++i) {
+        const Vector3d from = vertices.col(edges(0, i)), to = vertices.col(edges(1, i));
+        if (from != to) parts.push_back(segment(from, to));
     }
-    return faces;
-}
-
-bool is_sharp(const Shape& mesh, const std::vector<Eigen::Index>& faces, double degrees) {
-    if (faces.size() != 2) return false;
-    const Vector3d a = area_normal(mesh, faces[0]), b = area_normal(mesh, faces[1]);
-    return a.dot(b) < std::cos(degrees * std::numbers::pi / 180) * a.norm() * b.norm();
-}
-
-std::vector<PiecePtr> joined(std::vector<PiecePtr> parts) {
     if (parts.empty()) return {};
     return {std::make_shared<Segments>(std::move(parts))};
 }
@@ -117,16 +56,9 @@ std::vector<PiecePtr> joined(std::vector<PiecePtr> parts) {
 }  // namespace
 
 TestShape make_mesh_shape(const Shape& mesh, const Sampling& sampling, double sharp_degrees) {
-    std::vector<PiecePtr> borders, sharp;
-    for (const auto& [edge, faces] : edges_of(mesh.triangles)) {
-        const Vector3d from = mesh.cloud.points.col(edge.first);
-        const Vector3d to = mesh.cloud.points.col(edge.second);
-        if (from == to) continue;
-        if (faces.size() == 1) borders.push_back(segment(from, to));
-        if (is_sharp(mesh, faces, sharp_degrees)) sharp.push_back(segment(from, to));
-    }
-    TestShape shape{"mesh", {std::make_shared<MeshSurface>(mesh)}, joined(std::move(borders))};
-    shape.edges = joined(std::move(sharp));
+    const Points& vertices = mesh.cloud.points;
+    TestShape shape{"mesh", {mesh_surface(mesh)}, joined(vertices, border_edges(mesh))};
+    shape.edges = joined(vertices, sharp_edges(mesh, sharp_degrees));
     return sampled(std::move(shape), sampling);
 }
 

@@ -34,4 +34,7 @@ namespace lpf::test {
 /// triangles without area (a, b, b) over the vertices of the mesh.
 [[nodiscard]] Triangles sharp_edges(const Shape& mesh, double degrees = 30.0);
 
+/// The edges of one triangle only, written the same way.
+[[nodiscard]] Triangles border_edges(const Shape& mesh);
+
 }  // namespace lpf::test
