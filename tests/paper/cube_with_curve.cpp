@@ -7,8 +7,8 @@
 namespace lpf::paper {
 namespace {
 
-std::vector<Cell> row_of(const std::string& name, const TestShape& shape, const Points& points,
-                         double seconds) {
+std::vector<Cell> row_of(const std::string& name, const TestShape& shape, const Resampled& done) {
+    const Points& points = done.points;
     // Of a result nobody knows which point is on the curve: those outside of the cube are.
     const auto outside = [&](Eigen::Index i) { return points.col(i).cwiseAbs().maxCoeff() > 2.1; };
     const test::Vector3d crossing(2, 0.8 * std::sin(3.0), 0.5 * std::cos(2.4));
@@ -27,7 +27,7 @@ std::vector<Cell> row_of(const std::string& name, const TestShape& shape, const 
             number(coverage.curve),
             number(gaps.mean),
             number(gaps.deviation / gaps.mean, 2),
-            seconds > 0 ? number(seconds, 2) : Cell("-")};
+            number(done.seconds, 2)};
 }
 
 }  // namespace
@@ -55,9 +55,9 @@ Section cube_with_curve(const Settings& settings) {
     const Resampled by_paper = resample_with(cloud_of(shape.points), paper, settings);
     const Resampled by_itself = resample_with(cloud_of(shape.points), automatic, settings);
     Table& table = section.tables[0];
-    table.rows = {row_of("input", shape, shape.points, 0),
-                  row_of("paper's parameters", shape, by_paper.points, by_paper.seconds),
-                  row_of("automatic", shape, by_itself.points, by_itself.seconds)};
+    table.rows = {row_of("input", shape, {shape.points}),
+                  row_of("paper's parameters", shape, by_paper),
+                  row_of("automatic", shape, by_itself)};
     section.claims = {
         {"noise is taken out: the error is below the input's, on the curve too",
          table.at("automatic", "RMSE") < table.at("input", "RMSE") &&
@@ -75,10 +75,8 @@ Section cube_with_curve(const Settings& settings) {
                 [&] {
                     const test::View view{
                         .azimuth = 40, .elevation = 25, .centre = {2.2, 0, 0}, .extent = 2.4};
-                    return render_side_by_side(
-                        {distance_scene(shape.points, shape, 0.02, "input", view),
-                         distance_scene(by_itself.points, shape, 0.02, "resampled", view)},
-                        view, {760, 330});
+                    return distance_pair(shape, by_itself.points, 0.02, {"input", "resampled"},
+                                         view, {760, 330});
                 });
     return section;
 }

@@ -39,9 +39,7 @@ void draw(Section& section, const Settings& settings, const TestShape& shape, co
         "(yellow: .25 and more).",
         [&] {
             test::View view{.azimuth = -60, .elevation = 25, .centre = {8, -8, 2.5}, .extent = 13};
-            return render_side_by_side({distance_scene(shape.points, shape, 0.25, "noisy", view),
-                                        distance_scene(after, shape, 0.25, "LPF", view)},
-                                       view, {800, 340});
+            return distance_pair(shape, after, 0.25, {"noisy", "LPF"}, view, {800, 340});
         });
 }
 

@@ -23,8 +23,8 @@ Section head_denoising(const Settings& settings) {
                 number(all.rmse),
                 number(all.p95),
                 number(all.max),
-                done.radius > 0 ? number(done.radius) : Cell("-"),
-                done.seconds > 0 ? number(done.seconds, 2) : Cell("-")};
+                number(done.radius),
+                number(done.seconds, 2)};
     };
     const Denoised automatic = denoise_with(shape.points, {}, settings);
     Table& table = section.tables[0];

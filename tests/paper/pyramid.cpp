@@ -22,8 +22,8 @@ Section pyramid(const Settings& settings) {
     request.analysis_iterations = 3;
     request.target_points = settings.points(2200000);
     const Resampled done = resample_with(cloud_of(shape.points), request, settings);
-    const auto row_of = [&](const std::string& name, const Points& points,
-                            double seconds) -> std::vector<Cell> {
+    const auto row_of = [&](const std::string& name, const Resampled& each) -> std::vector<Cell> {
+        const Points& points = each.points;
         const test::ErrorStats all = Errors(points, shape).all();
         return {name,
                 number(double(points.cols()), 1),
@@ -31,10 +31,9 @@ Section pyramid(const Settings& settings) {
                 number(all.p95),
                 number(all.max),
                 number(test::coverage_of_shape(shape, points).surface),
-                seconds > 0 ? number(seconds, 2) : Cell("-")};
+                number(each.seconds, 2)};
     };
-    section.tables[0].rows = {row_of("input", shape.points, 0),
-                              row_of("resampled", done.points, done.seconds)};
+    section.tables[0].rows = {row_of("input", {shape.points}), row_of("resampled", done)};
     const Table& table = section.tables[0];
     section.claims = {
         {"the engravings are recovered: the error is below a tenth of the shallowest's depth",
@@ -44,9 +43,7 @@ Section pyramid(const Settings& settings) {
     add_picture(section, settings, "pyramid", "A part of one side: input and result.", [&] {
         const test::View view{
             .azimuth = -60, .elevation = 20, .centre = {10, -26, 20}, .extent = 18};
-        return render_side_by_side(
-            {plain_scene(shape.points, "input", view), plain_scene(done.points, "resampled", view)},
-            view, {900, 400});
+        return plain_pair(shape, done.points, view, {900, 400});
     });
     return section;
 }

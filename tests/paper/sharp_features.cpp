@@ -1,8 +1,6 @@
 #include <cmath>
 
 #include "tests/paper/experiments.h"
-#include "tests/support/meshes.h"
-#include "tests/support/metrics.h"
 
 namespace lpf::paper {
 namespace {
@@ -25,8 +23,9 @@ Section sharp_features(const Settings& settings) {
             "from an edge their seeds are in the end, in radii.",
         .tables = {{{"probing", "LPFs", "distance to the edge before", "after", "move"}}}};
     const TestShape shape = test::make_cube({.points = settings.points(60000), .seed = 4});
-    const Shape cube = test::cube_mesh();
-    const test::MeshDistance to_edges(cube.cloud.points, test::sharp_edges(cube));
+    const auto to_edges = [&](const test::Vector3d& place) {
+        return test::distance_to_pieces(shape.edges, place);
+    };
     const std::pair<std::string, ProbingKind> kinds[] = {
         {"nearest point", ProbingKind::NearestPoint},
         {"as orthogonal as possible", ProbingKind::AsOrthogonalAsPossible}};

@@ -1,25 +1,38 @@
-#include "tests/paper/upsampling.h"
-
 #include "tests/paper/errors.h"
 #include "tests/paper/experiments.h"
 #include "tests/support/metrics.h"
 
 namespace lpf::paper {
 
-Table upsampling_table(const TestShape& shape, const Resampled& result) {
+namespace {
+
+/// Resamples a shape to a number of points. Its table goes into the section: a row for the shape as
+/// it is scanned and one as it is resampled, with errors and coverage.
+Resampled upsample(Section& section, const TestShape& shape, ParameterRequest request,
+                   std::size_t target, const Settings& settings) {
+    request.target_points = target;
+    const Resampled done = resample_with(cloud_of(shape.points), request, settings);
     Table table{{"points", "count", "RMSE", "95 % of errors below", "coverage of surfaces",
                  "of curves", "of borders", "seconds"}};
-    const auto add = [&](const std::string& name, const Points& points, const Cell& seconds) {
-        const auto coverage = test::coverage_of_shape(shape, points);
-        const test::ErrorStats all = Errors(points, shape).all();
-        table.rows.push_back({name, number(double(points.cols()), 1), number(all.rmse),
+    const auto add = [&](const std::string& name, const Resampled& each) {
+        const auto coverage = test::coverage_of_shape(shape, each.points);
+        const test::ErrorStats all = Errors(each.points, shape).all();
+        table.rows.push_back({name, number(double(each.points.cols()), 1), number(all.rmse),
                               number(all.p95), number(coverage.surface), number(coverage.curve),
-                              number(coverage.border), seconds});
+                              number(coverage.border), number(each.seconds, 2)});
     };
-    add("input", shape.points, "-");
-    add("resampled", result.points, number(result.seconds, 2));
-    return table;
+    add("input", {shape.points});
+    add("resampled", done);
+    section.tables = {std::move(table)};
+    return done;
 }
+
+Claim noise_falls(const Table& table, const std::string& share, double divisor) {
+    return {"noise is taken out: the error falls to less than " + share,
+            table.at("resampled", "RMSE") < table.at("input", "RMSE") / divisor};
+}
+
+}  // namespace
 
 Section ship(const Settings& settings) {
     Section section{
@@ -33,22 +46,16 @@ Section ship(const Settings& settings) {
             "1.1 million points and noise of .05. Nothing is given but the number of points."};
     const TestShape shape =
         test::make_curvenet({.points = settings.points(1100000), .noise = 0.05, .seed = 1});
-    ParameterRequest request;
-    request.target_points = settings.points(2200000);
-    const Resampled done = resample_with(cloud_of(shape.points), request, settings);
-    section.tables = {upsampling_table(shape, done)};
+    const Resampled done = upsample(section, shape, {}, settings.points(2200000), settings);
     const Table& table = section.tables[0];
     section.claims = {
-        {"noise is taken out: the error falls to less than a third",
-         table.at("resampled", "RMSE") < table.at("input", "RMSE") / 3},
+        noise_falls(table, "a third", 3),
         {"curves are covered no worse than the surface is in the input",
          table.at("resampled", "of curves") < table.at("input", "coverage of surfaces")}};
     add_picture(section, settings, "ship", "A part: input and result.", [&] {
         const test::View view{
             .azimuth = -60, .elevation = 25, .centre = {8, -8, 2.5}, .extent = 11};
-        return render_side_by_side(
-            {plain_scene(shape.points, "input", view), plain_scene(done.points, "resampled", view)},
-            view, {800, 330});
+        return plain_pair(shape, done.points, view, {800, 330});
     });
     return section;
 }
@@ -69,12 +76,9 @@ Section facade(const Settings& settings) {
         test::make_open_sheet({.points = settings.points(200000), .noise = 0.003, .seed = 12});
     ParameterRequest request = paper_request(1.0, 193, 32);
     request.radius.reset();
-    request.target_points = settings.points(2200000);
-    const Resampled done = resample_with(cloud_of(shape.points), request, settings);
-    section.tables = {upsampling_table(shape, done)};
+    upsample(section, shape, request, settings.points(2200000), settings);
     const Table& table = section.tables[0];
-    section.claims = {{"noise is taken out: the error falls to less than a third",
-                       table.at("resampled", "RMSE") < table.at("input", "RMSE") / 3},
+    section.claims = {noise_falls(table, "a third", 3),
                       {"borders are kept: they are covered no worse than by the input",
                        table.at("resampled", "of borders") <= table.at("input", "of borders")}};
     return section;
@@ -93,11 +97,8 @@ Section mire(const Settings& settings) {
             "million points and noise of .002. Nothing is given but the number of points."};
     const TestShape shape =
         test::make_density_step({.points = settings.points(1000000), .noise = 0.002, .seed = 13});
-    ParameterRequest request;
-    request.target_points = settings.points(1000000);
-    const Resampled done = resample_with(cloud_of(shape.points), request, settings);
-    section.tables = {upsampling_table(shape, done),
-                      {{"points", "mean neighbour distance", "variation"}}};
+    const Resampled done = upsample(section, shape, {}, settings.points(1000000), settings);
+    section.tables.push_back({{"points", "mean neighbour distance", "variation"}});
     const auto add = [&](const std::string& name, const Points& points) {
         const auto gaps = test::nearest_neighbour_stats(points);
         section.tables[1].rows.push_back(
@@ -107,8 +108,7 @@ Section mire(const Settings& settings) {
     add("resampled", done.points);
     const Table& table = section.tables[0];
     section.claims = {
-        {"noise is taken out: the error falls to less than a third",
-         table.at("resampled", "RMSE") < table.at("input", "RMSE") / 3},
+        noise_falls(table, "a third", 3),
         {"the sampling is regularised: neighbour distances vary less than half as much",
          section.tables[1].at("resampled", "variation") <
              section.tables[1].at("input", "variation") / 2}};
@@ -128,21 +128,16 @@ Section shutter(const Settings& settings) {
             "lambda and iterations."};
     const TestShape shape =
         test::make_shutter({.points = settings.points(290000), .noise = 0.001, .seed = 14});
-    ParameterRequest request = paper_request(0.02, 193, 64);
-    request.target_points = settings.points(2000000);
-    const Resampled done = resample_with(cloud_of(shape.points), request, settings);
-    section.tables = {upsampling_table(shape, done)};
+    const Resampled done =
+        upsample(section, shape, paper_request(0.02, 193, 64), settings.points(2000000), settings);
     const Table& table = section.tables[0];
-    section.claims = {{"noise is taken out: the error falls to less than half",
-                       table.at("resampled", "RMSE") < table.at("input", "RMSE") / 2},
+    section.claims = {noise_falls(table, "half", 2),
                       {"edges of the slats are kept: they are covered no worse than by the input",
                        table.at("resampled", "of borders") <= table.at("input", "of borders")}};
     add_picture(section, settings, "shutter", "A corner of the shutter: input and result.", [&] {
         const test::View view{
             .azimuth = 240, .elevation = 20, .centre = {0.2, 0, 0.3}, .extent = 0.5};
-        return render_side_by_side(
-            {plain_scene(shape.points, "input", view), plain_scene(done.points, "resampled", view)},
-            view, {900, 400});
+        return plain_pair(shape, done.points, view, {900, 400});
     });
     return section;
 }

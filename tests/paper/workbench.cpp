@@ -111,6 +111,21 @@ Scene distance_scene(const Points& points, const TestShape& shape, double limit,
     return scene_of(std::move(shown), std::move(colours), label);
 }
 
+Image plain_pair(const TestShape& input, const Points& result, const View& view,
+                 const test::PictureSize& size) {
+    return render_side_by_side(
+        {plain_scene(input.points, "input", view), plain_scene(result, "resampled", view)}, view,
+        size);
+}
+
+Image distance_pair(const TestShape& input, const Points& result, double limit,
+                    const std::pair<std::string, std::string>& labels, const View& view,
+                    const test::PictureSize& size) {
+    return render_side_by_side({distance_scene(input.points, input, limit, labels.first, view),
+                                distance_scene(result, input, limit, labels.second, view)},
+                               view, size);
+}
+
 Image below_each_other(const std::vector<Image>& rows) {
     int width = 0, height = 0;
     for (const Image& row : rows) {

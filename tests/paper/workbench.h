@@ -1,8 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/auto_parameters.h"
@@ -31,18 +33,21 @@ struct Settings {
 /// dictionaries (Sec. 3.3); its analysis takes 10 iterations.
 [[nodiscard]] ParameterRequest paper_request(double radius, int pattern_points, int atoms);
 
+/// NaN, shown as "-", for points as they were scanned.
+constexpr double kNotSet = std::numeric_limits<double>::quiet_NaN();
+
 struct Denoised {
     Points points;
-    double radius = 0.0;
-    double seconds = 0.0;
+    double radius = kNotSet;
+    double seconds = kNotSet;
 };
 [[nodiscard]] Denoised denoise_with(const Points& points, const ParameterRequest& request,
                                     const Settings& settings);
 
 struct Resampled {
     Points points;
-    double spacing = 0.0;
-    double seconds = 0.0;
+    double spacing = kNotSet;
+    double seconds = kNotSet;
 };
 /// @param adjust the last word on the parameters, for what a request cannot say
 [[nodiscard]] Resampled resample_with(const Shape& shape, const ParameterRequest& request,
@@ -62,6 +67,15 @@ struct Resampled {
 /// Coloured by the distance to the exact shape: dark 0, yellow `limit` and more.
 [[nodiscard]] test::Scene distance_scene(const Points& points, const TestShape& shape, double limit,
                                          const std::string& label, const test::View& view);
+
+/// Input and result of a resampling side by side.
+[[nodiscard]] test::Image plain_pair(const TestShape& input, const Points& result,
+                                     const test::View& view, const test::PictureSize& size);
+
+/// The same, coloured by the distance to the exact shape.
+[[nodiscard]] test::Image distance_pair(const TestShape& input, const Points& result, double limit,
+                                        const std::pair<std::string, std::string>& labels,
+                                        const test::View& view, const test::PictureSize& size);
 
 /// Rows of pictures below each other, as wide as the widest.
 [[nodiscard]] test::Image below_each_other(const std::vector<test::Image>& rows);
