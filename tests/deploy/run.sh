@@ -3,15 +3,7 @@
 # Exit code 77: this machine has no npm, so that nothing could be checked.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-work=$1
-command -v npm >/dev/null || { echo "skipped: npm is not there"; exit 77; }
-
-# In a copy, so that the source tree stays as it is.
-mkdir -p "$work"
-cp "$here"/*.mjs "$here"/package.json "$here"/package-lock.json "$here"/.npmrc "$work"
-cd "$work"
-if ! cmp -s package-lock.json installed-lock.json; then
-    npm ci || { echo "npm ci failed: is there a network?"; exit 1; }
-    cp package-lock.json installed-lock.json
-fi
+# shellcheck source=tests/npm_copy.sh
+. "$here/../npm_copy.sh"
+enter_npm_copy "$here" "$1"
 LPF_MANIFESTS=$(cd "$here/../../deploy/kubernetes" && pwd) exec node --test manifests.test.mjs
