@@ -25,35 +25,29 @@ TEST(DecodingRoom, RefusesWhatNeverFits) {
     }
 }
 
-TEST(DecodingRoom, WaitsUntilMemoryIsFree) {
-    DecodingRoom room(100);
-    auto first = std::make_unique<Seat>(room, 60);
+/// Somebody waits for `memory` for as long as `holder` keeps its seat.
+void expect_wait(DecodingRoom& room, double memory, std::unique_ptr<Seat> holder) {
     std::atomic<bool> seated = false;
     std::thread other([&] {
-        const Seat second(room, 60);
+        const Seat seat(room, memory);
         seated = true;
     });
     std::this_thread::sleep_for(std::chrono::milliseconds(30));
     EXPECT_FALSE(seated);
-    first.reset();
+    holder.reset();
     other.join();
     EXPECT_TRUE(seated);
+}
+
+TEST(DecodingRoom, WaitsUntilMemoryIsFree) {
+    DecodingRoom room(100);
+    expect_wait(room, 60, std::make_unique<Seat>(room, 60));
 }
 
 TEST(DecodingRoom, HasFewSeats) {
     DecodingRoom room(100);
     const Seat first(room, 1);
-    auto second = std::make_unique<Seat>(room, 1);
-    std::atomic<bool> seated = false;
-    std::thread other([&] {
-        const Seat third(room, 1);
-        seated = true;
-    });
-    std::this_thread::sleep_for(std::chrono::milliseconds(30));
-    EXPECT_FALSE(seated);
-    second.reset();
-    other.join();
-    EXPECT_TRUE(seated);
+    expect_wait(room, 1, std::make_unique<Seat>(room, 1));
 }
 
 }  // namespace
