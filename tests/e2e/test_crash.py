@@ -74,6 +74,14 @@ class Ledger:
             return dice.choice(list(self.acknowledged)) if self.acknowledged else None
 
 
+def fetch_whole(url):
+    """The answer; requests passes a body that the death of the server cut short off as whole."""
+    answer = requests.get(url, timeout=20)
+    if len(answer.content) < int(answer.headers.get("Content-Length", 0)):
+        raise requests.ConnectionError(f"{url}: the body ends early")
+    return answer
+
+
 def verify_results(url, job, ledger):
     """The results are those that the document names, byte by byte."""
     results = requests.get(f"{url}/v1/jobs/{job}/results", timeout=20)
@@ -82,10 +90,11 @@ def verify_results(url, job, ledger):
         return
     digests = {}
     for name, entry in results.json().items():
-        body = requests.get(url + entry["href"], timeout=20).content
-        digests[name] = hashlib.sha256(body).hexdigest()
-        if digests[name] != entry["sha256"] or len(body) != entry["bytes"]:
-            ledger.fault(f"{name} of {job} is not what its document says")
+        answer = fetch_whole(url + entry["href"])
+        digests[name] = hashlib.sha256(answer.content).hexdigest()
+        if digests[name] != entry["sha256"] or len(answer.content) != entry["bytes"]:
+            ledger.fault(f"{name} of {job} is not what its document says: status "
+                         f"{answer.status_code}, {len(answer.content)} bytes, not {entry['bytes']}")
     ledger.see_results(job, digests)
 
 
