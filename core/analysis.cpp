@@ -107,8 +107,12 @@ private:
                 if (!move && params_.debias) debias({gram, worker.correlations, 0.0F}, code);
                 dictionary_.decode(code, worker.decoded);
                 residuals_[j] = residual(worker);
-                energy.learning += field_energy(j, worker, code);
-                if (!move) return;
+                const double learned = field_energy(j, worker, code);
+                energy.learning += learned;
+                if (!move || fields_.pose_is_fixed(j)) {
+                    energy.pose += learned;
+                    return;
+                }
 
                 const RigidFit fit =
                     fit_pose(dictionary_.pattern(), worker.field.data(), worker.decoded.data());
@@ -179,8 +183,8 @@ void validate(const AnalysisParams& p) {
     require(p.seed_spacing >= 0 && p.seed_spacing <= 1,
             "The spacing of the seeds must be 0 to 1 radius, so that the LPFs cover the shape.",
             "seedSpacing");
-    require(std::isfinite(p.noise_spread) && p.noise_spread >= 0,
-            "The spread of the noise must be 0 or more.", "noiseSpread");
+    require(std::isfinite(p.noise) && p.noise >= 0,
+            "The noise must be 0 or more.", "noise");
     require(p.pose_iterations >= 0 && p.pose_iterations <= 50,
             "The pose iterations must be 0 to 50.", "poseIterations");
     require(p.atoms >= 1 && p.atoms <= 256, "The dictionary takes 1 to 256 atoms.", "atoms");

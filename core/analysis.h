@@ -30,9 +30,10 @@ struct AnalysisParams {
     ProbingKind probing = ProbingKind::AsOrthogonalAsPossible;
     double target_radius = 1.1;  ///< of the target area [radius], 1 to 2 (Sec. 3.1)
     double seed_spacing = 0.5;   ///< least distance of seeds [radius]; 0 = one seed per point
-    /// Spread off the mean plane that noise explains [input length]; 0 = one radius for all LPFs.
-    /// Where the shape spreads further it is thinner than the radius, and LPFs get smaller ones.
-    double noise_spread = 0.0;
+    /// Standard deviation of the points off the shape [input length]. LPFs keep to one sheet or
+    /// curve then; 0 = unknown: an LPF is about all that its target area holds.
+    double noise = 0.0;
+    bool adapt_radius = false;     ///< LPFs as large as the shape around them allows
     bool principal_frames = true;  ///< start from principal directions; false = random (Sec. 3.1)
     int pose_iterations = 2;       ///< as-orthogonal-as-possible passes (Sec. 2.2), 0 to 50
     int atoms = 16;                ///< d, 1 to 256 (Sec. 3.6)

@@ -20,11 +20,8 @@ constexpr double kSigmasInRadius = 3.0;
 constexpr double kDensityShare = 0.6;
 constexpr double kLeastDensityShare = 0.4;
 
-/// Below this ratio of noise to radius a second outer iteration rounds more than it smooths.
-constexpr double kQuiet = 0.06;
-
-/// Spread off the mean plane that noise alone is taken for; more is a part thinner than the radius.
-constexpr double kSigmasOfSpread = 1.5;
+/// Denoising leaves this share of the noise, at most, to what comes after it.
+constexpr double kNoiseLeft = 0.25;
 
 constexpr int kPatternPoints = 193;
 constexpr int kFinePatternPoints = 793;
@@ -49,7 +46,10 @@ public:
         a.debias = true;
         a.radius = choose("radius", q_.radius, auto_radius());
         noise_ratio_ = m_.noise / a.radius;
-        if (!mesh_ && !q_.radius) a.noise_spread = kSigmasOfSpread * m_.noise;
+        // An analysis on its own is that of the paper; what moves points keeps to pieces of the shape.
+        const bool keeps_to_pieces = !mesh_ && task_ != Task::Analyze;
+        if (keeps_to_pieces) a.noise = m_.noise;
+        a.adapt_radius = keeps_to_pieces && !q_.radius;
         a.probing = q_.probing.value_or(auto_probing());
         if (q_.dictionary) {
             a.initial_dictionary = q_.dictionary;
@@ -144,9 +144,8 @@ private:
         d.gamma = choose("gamma", q_.gamma, Choice<double>{0.0, "the full step (0 stands for it)"});
     }
 
-    [[nodiscard]] Choice<int> auto_denoise_iterations() const {
-        if (noise_ratio_ < kQuiet) return {1, "the noise is below .06 radius"};
-        return {2, "the noise is above .06 radius"};
+    [[nodiscard]] static Choice<int> auto_denoise_iterations() {
+        return {1, "one removes the noise; more round what it leaves"};
     }
 
     void resolve_resample() {
@@ -175,6 +174,7 @@ private:
         r.denoise = DenoiseParams{};
         r.denoise->analysis = result_.analysis;
         r.denoise->analysis.iterations = 1;
+        r.analysis.noise = kNoiseLeft * m_.noise;
         r.denoise->iterations = auto_denoise_iterations().value;
     }
 

@@ -65,19 +65,28 @@ FieldSet::FieldSet(const Shape& shape, const AnalysisParams& params, const Execu
 
 void FieldSet::place(const Points& targets, const AnalysisParams& params,
                      const Execution& execution) {
-    frames = place_seeds(targets, grid_,
+    Seeds seeds = place_seeds(targets, grid_,
                          {.radius = params.radius,
                           .spacing = params.seed_spacing,
                           .target_radius = params.target_radius,
-                          .noise_spread = params.noise_spread,
+                          .noise = params.noise,
+                          .adapt_radius = params.adapt_radius,
                           .random_seed = params.random_seed},
                          part_of(execution, 0.0, 0.5));
+    frames = std::move(seeds.frames);
+    pieces = std::move(seeds.pieces);
     dimensions.assign(frames.size(), kTooFewPoints);
 
     parallel_for(part_of(execution, 0.5, 1.0), "place", "fields", size(), kFieldsPerChunk,
                  [&](std::size_t begin, std::size_t end, std::size_t) {
                      TargetArea target;
                      for (std::size_t j = begin; j < end; ++j) {
+                         if (pieces[j].exists()) {
+                             dimensions[j] = pieces[j].dimension;
+                             frames[j].origin = pieces[j].origin;
+                             frames[j].axes = pieces[j].axes;
+                             continue;
+                         }
                          grid_.gather(frames[j], target_radius_, target);
                          const PrincipalDirections principal = principal_directions(target);
                          dimensions[j] = local_dimension(principal, target.size);
@@ -102,8 +111,14 @@ FieldSet::Worker FieldSet::make_worker(int atoms) const {
 std::size_t FieldSet::chunks() const { return chunk_count(size(), kFieldsPerChunk); }
 
 void FieldSet::gather(std::size_t j, TargetArea& target) const {
+    gather_ball(j, target);
+    keep_members(pieces[j], 1.0F, target);
+}
+
+void FieldSet::gather_ball(std::size_t j, TargetArea& target) const {
     grid_.gather(frames[j], target_radius_, target);
     target.to_frame(frames[j]);
+    flatten(pieces[j], target);
 }
 
 void FieldSet::probe(std::size_t j, Worker& worker) const {
@@ -126,11 +141,21 @@ void FieldSet::for_each_probed(std::string_view phase, const Execution& executio
 
 void FieldSet::for_each_target(std::string_view phase, const Execution& execution,
                                const Body& body) const {
+    for_each_gathered(phase, execution, body, &FieldSet::gather);
+}
+
+void FieldSet::for_each_ball(std::string_view phase, const Execution& execution,
+                             const Body& body) const {
+    for_each_gathered(phase, execution, body, &FieldSet::gather_ball);
+}
+
+void FieldSet::for_each_gathered(std::string_view phase, const Execution& execution,
+                                 const Body& body, Gather gather) const {
     parallel_for(execution, phase, "fields", size(), kFieldsPerChunk,
                  [&](std::size_t begin, std::size_t end, std::size_t chunk) {
                      Worker worker = make_worker(0);
                      for (std::size_t j = begin; j < end; ++j) {
-                         gather(j, worker.probe.target);
+                         (this->*gather)(j, worker.probe.target);
                          body(j, worker, chunk);
                      }
                  });
@@ -174,6 +199,7 @@ void FieldSet::optimise_poses(int passes, const Execution& execution) {
                                        static_cast<double>(pass + 1) / passes);
         // Frame j changes only in its own call.
         for_each_probed("pose", part, 0, [this](std::size_t j, Worker& worker, std::size_t) {
+            if (pose_is_fixed(j)) return;
             apply_pose(fit_pose(pattern_, worker.field.data(), worker.decoded.data()), frames[j]);
         });
     }

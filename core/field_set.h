@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/analysis.h"
+#include "core/field/piece.h"
 #include "core/field/probing.h"
 #include "core/field/target_area.h"
 
@@ -40,6 +41,10 @@ public:
     void for_each_target(std::string_view phase, const Execution& execution,
                          const Body& body) const;
 
+    /// The same with all points of the target area, flattened, also those that are not of the LPF's
+    /// piece.
+    void for_each_ball(std::string_view phase, const Execution& execution, const Body& body) const;
+
     /// At most `count` usable LPFs, drawn at random, ascending; all of them if there are no more.
     [[nodiscard]] std::vector<std::size_t> draw_sample(int count, std::uint64_t random_seed) const;
 
@@ -57,6 +62,9 @@ public:
         return static_cast<float>(ratio * ratio);
     }
 
+    /// LPFs lie on the piece that they are about: their pose is that of the piece.
+    [[nodiscard]] bool pose_is_fixed(std::size_t j) const { return pieces[j].exists(); }
+
     [[nodiscard]] std::size_t size() const { return frames.size(); }
     [[nodiscard]] std::size_t chunks() const;
     [[nodiscard]] const Pattern& pattern() const { return pattern_; }
@@ -64,11 +72,16 @@ public:
 
     std::vector<Frame> frames;
     std::vector<std::uint8_t> dimensions;  ///< Dimension of each
+    std::vector<Piece> pieces;             ///< what each is about; the fields start from it
 
 private:
     void place(const Points& targets, const AnalysisParams& params, const Execution& execution);
     [[nodiscard]] Worker make_worker(int atoms) const;
     void gather(std::size_t j, TargetArea& target) const;
+    void gather_ball(std::size_t j, TargetArea& target) const;
+    using Gather = void (FieldSet::*)(std::size_t j, TargetArea& target) const;
+    void for_each_gathered(std::string_view phase, const Execution& execution, const Body& body,
+                           Gather gather) const;
     void probe(std::size_t j, Worker& worker) const;
 
     Pattern pattern_;

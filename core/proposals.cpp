@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -126,18 +127,25 @@ float support_distance(const TargetArea& target, double support, double spacing,
     return static_cast<float>(std::max({support / radius, spacing / 2 / radius, local}));
 }
 
-/// Eq. 7 for one LPF: the places of its pattern, moved by its reconstructed field. An LPF of too
-/// few points knows no field: it proposes the points themselves, so that nothing sparse is lost.
-void propose(const Frame& frame, const Pattern& pattern, const TargetArea& target,
-             const std::vector<float>& field, const std::vector<Eigen::Vector2f>& places,
-             float support, std::vector<Eigen::Vector3d>& proposals) {
+/// Eq. 7 for one LPF: the places of its pattern, moved by its reconstructed field, on the piece that
+/// it is about.
+void propose(const Frame& frame, const Piece& piece, const Pattern& pattern,
+             const TargetArea& target, const std::vector<float>& field,
+             const std::vector<Eigen::Vector2f>& places, float support,
+             std::vector<Eigen::Vector3d>& proposals) {
     const Support supported(target, support);
     for (const Eigen::Vector2f& place : places) {
         const auto p = displace(pattern, field, place);
-        if (p && supported.covers(p->x(), p->y())) proposals.push_back(frame.to_world(*p));
+        if (!p || !supported.covers(p->x(), p->y())) continue;
+        const Eigen::Vector3f on_piece = *p + piece.shape(p->x(), p->y());
+        const Eigen::Vector3f gap(0, 0, piece.half_gap(p->x(), p->y()));
+        proposals.push_back(frame.to_world(on_piece + gap));
+        if (gap.z() > 0) proposals.push_back(frame.to_world(on_piece - gap));
     }
 }
 
+/// An LPF of too few points knows no field: it proposes the points themselves, so that nothing sparse
+/// is lost.
 void propose_points(const Frame& frame, const TargetArea& target,
                     std::vector<Eigen::Vector3d>& proposals) {
     for (std::size_t i = 0; i < target.size; ++i) {
@@ -169,8 +177,13 @@ Candidates propose(const FieldSet& fields, const AnalysisResult& analysis,
     constexpr float kEverywhere = 10.0F;
     const bool search = params.target_points > 0;
     const double apart = spacing * (search ? kCandidateStepOfSearch : kCandidateStep);
-    auto places = proposal_places(fields.pattern(), analysis.radius, apart);
-    if (search) shake(places, apart / analysis.radius);
+    std::map<double, std::vector<Eigen::Vector2f>> places;  // by the radius of the LPF
+    for (const Frame& frame : fields.frames) {
+        const auto [at, is_new] = places.try_emplace(frame.radius);
+        if (!is_new) continue;
+        at->second = proposal_places(fields.pattern(), frame.radius, apart);
+        if (search) shake(at->second, apart / frame.radius);
+    }
     std::vector<std::vector<Eigen::Vector3d>> proposals(fields.size());
     const auto propose_of = [&](std::size_t j, FieldSet::Worker& worker, std::size_t) {
         const TargetArea& target = worker.probe.target;
@@ -187,7 +200,8 @@ Candidates propose(const FieldSet& fields, const AnalysisResult& analysis,
         const float distance = params.support > 0
                                    ? support_distance(target, params.support, spacing, frame.radius)
                                    : kEverywhere;
-        propose(frame, fields.pattern(), target, worker.decoded, places, distance, proposals[j]);
+        propose(frame, fields.pieces[j], fields.pattern(), target, worker.decoded,
+                places.at(frame.radius), distance, proposals[j]);
     };
     if (params.detail > 0) {
         fields.for_each_probed("propose", execution, 0, propose_of);

@@ -1,27 +1,46 @@
 #include "core/field/seeding.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
-#include "core/field/local_probing_field.h"
-#include "core/shape/hash_grid.h"
+#include "core/field/piece_growth.h"
 #include "core/shape/poisson_sampling.h"
 
 namespace lpf {
 namespace {
 
-/// Each try at a place is so much smaller than the one before, four sizes in all.
-constexpr double kShrink = 0.7;
-constexpr int kSizes = 4;
+/// Sizes that are tried, in radii, from large to small; none smaller than so many sigma, except
+/// for the last that is left.
+constexpr double kSizes[] = {2.8, 2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25};
+constexpr double kLeastSigmasOfSize = 2.4;
 
-/// A smaller target area must still show a shape.
-constexpr std::size_t kFewestPointsOfSmaller = 20;
+/// Seeds of each size are placed in this many rounds, each where those before left points.
+constexpr int kRounds = 2;
 
-/// A right-angled edge spreads by .19 radii off its mean plane, a corner by .24; two sides of a
-/// thin part, or a bundle of twigs, by more.
-constexpr double kLargestSpread = 0.2;
+/// An LPF takes care of the members of its piece within this share of its radius. Members count
+/// that lie a little further off than those that the piece was fitted to: noise alone would
+/// otherwise leave points to care for everywhere.
+constexpr double kCare = 0.75;
+constexpr float kCareOffCurves = 1.3F;
+
+/// A sheet of which less is left than this, when what lies on curves is taken away, is none.
+constexpr double kLeastShareOffCurves = 0.3;
+
+/// An LPF of so many points is large enough: a larger one could hardly average better.
+constexpr std::size_t kEnoughPoints = 4000;
+
+/// From a point that noise has put somewhere to the middle of what is around it [sigma].
+constexpr double kShiftWidth = 1.2;
+constexpr float kShiftReach = 4.0F;
+constexpr int kShifts = 3;
+
+constexpr std::size_t kSeedsPerChunk = 64;
 
 using Indices = std::vector<std::uint32_t>;
+
+/// What has been done for a point: later values count for more.
+enum Care : std::uint8_t { kOpen = 0, kTried = 1, kOnSurface = 2, kOnCurve = 3 };
 
 Points select(const Points& points, const Indices& indices) {
     Points selected(3, static_cast<Eigen::Index>(indices.size()));
@@ -31,106 +50,221 @@ Points select(const Points& points, const Indices& indices) {
     return selected;
 }
 
-/// Whether the radius suits the place: the target area is one sheet or one curve as far as noise
-/// lets tell, or has too few points for a smaller radius to help.
-bool suits(const Points& points, const PointGrid& grid, std::uint32_t seed, double radius,
-           const SeedingParams& params, TargetArea& target) {
+struct Seed {
+    std::uint32_t point = 0;
     Frame frame;
-    frame.centre = points.col(seed);
-    frame.radius = radius;
-    grid.gather(frame, static_cast<float>(params.target_radius), target);
-    const auto left = static_cast<double>(target.size) * kShrink * kShrink;
-    if (left < static_cast<double>(kFewestPointsOfSmaller)) return true;
-    const double noise = params.noise_spread / radius;
-    return static_cast<double>(principal_directions(target).variances[2]) <=
-           kLargestSpread * kLargestSpread + noise * noise;
-}
+    Piece piece;
+    bool fits = false;
+};
 
-/// The points that no seed lies within `reach` of.
-Indices uncovered(const Points& points, const Indices& candidates, const Indices& seeds,
-                  double reach, const Execution& execution) {
-    const Eigen::Vector3d low = points.rowwise().minCoeff();
-    HashGrid near(low, (points.rowwise().maxCoeff() - low).maxCoeff(), reach);
-    for (const std::uint32_t seed : seeds) near.add(points.col(seed));
-    std::vector<std::uint8_t> covered(candidates.size(), 0);
-    parallel_for(execution, candidates.size(), 4096,
-                 [&](std::size_t begin, std::size_t end, std::size_t) {
-                     for (std::size_t i = begin; i < end; ++i) {
-                         near.for_each_near(points.col(candidates[i]),
-                                            [&](std::uint32_t, const Eigen::Vector3d&) {
-                                                covered[i] = 1;
-                                                return false;
-                                            });
-                     }
-                 });
-    Indices left;
-    for (std::size_t i = 0; i < candidates.size(); ++i) {
-        if (!covered[i]) left.push_back(candidates[i]);
-    }
-    return left;
-}
+/// A size that is tried, and the smaller one that it has to be better than.
+struct Trial {
+    double radius = 0.0;        ///< [input length]
+    double smaller = 0.0;       ///< ratio of the next radius to it; 0: there is no smaller one
+    bool last_chance = false;   ///< whatever is left gets an LPF now
+};
 
 /// Tries one size after the other: seeds whose radius suits stay; where none does, the points are
-/// covered by seeds of the next smaller radius.
+/// taken care of by seeds of the next smaller radius.
 class Seeding {
 public:
     Seeding(const Points& points, const PointGrid& grid, const SeedingParams& params)
-        : points_(points),
-          grid_(grid),
-          params_(params),
-          radius_(static_cast<std::size_t>(points.cols()), 0.0) {}
+        : points_(points), grid_(grid), params_(params), care_(grid.size(), kOpen) {}
 
-    std::vector<Frame> run(const Execution& execution) {
-        Indices open(radius_.size());
-        for (std::size_t i = 0; i < open.size(); ++i) open[i] = static_cast<std::uint32_t>(i);
-        double radius = params_.radius;
-        const int sizes = params_.noise_spread > 0 ? kSizes : 1;
-        for (int size = 0; size < sizes && !open.empty(); ++size, radius *= kShrink) {
-            const Execution part =
-                part_of(execution, static_cast<double>(size) / sizes, (size + 1.0) / sizes);
-            open = cover(open, radius, size + 1 == sizes, part);
+    Seeds run(const Execution& execution) {
+        const std::vector<double> radii = radii_to_try();
+        for (std::size_t k = 0; k < radii.size(); ++k) {
+            const bool last = k + 1 == radii.size();
+            Trial trial{radii[k], last ? 0.0 : radii[k + 1] / radii[k], false};
+            for (int round = 0; round < kRounds; ++round) {
+                trial.last_chance = last && round + 1 == kRounds;
+                if (trial.last_chance) reopen_tried();
+                place(trial, execution);
+            }
+            reopen_tried();
         }
-        return frames();
+        return result();
     }
 
 private:
-    /// @returns the points that no seed of a suitable radius covers
-    Indices cover(const Indices& open, double radius, bool last, const Execution& execution) {
-        const double spacing = params_.spacing * radius;
-        const bool all = open.size() == radius_.size();
-        Indices seeds = poisson_disk_subset(all ? points_ : select(points_, open), spacing,
-                                            params_.random_seed, execution);
-        for (std::uint32_t& seed : seeds) seed = open[seed];
-        std::vector<std::uint8_t> fits(seeds.size(), 1);
-        if (!last) {
-            parallel_for(execution, seeds.size(), 128,
-                         [&](std::size_t begin, std::size_t end, std::size_t) {
-                             TargetArea target;
-                             for (std::size_t i = begin; i < end; ++i) {
-                                 fits[i] = suits(points_, grid_, seeds[i], radius, params_, target);
-                             }
-                         });
+    [[nodiscard]] std::vector<double> radii_to_try() const {
+        if (!params_.adapt_radius) return {params_.radius};
+        std::vector<double> radii;
+        for (const double size : kSizes) {
+            const double radius = size * params_.radius;
+            if (radius >= kLeastSigmasOfSize * params_.noise) radii.push_back(radius);
         }
-        Indices kept;
-        for (std::size_t i = 0; i < seeds.size(); ++i) {
-            if (!fits[i]) continue;
-            kept.push_back(seeds[i]);
-            radius_[seeds[i]] = radius;
+        if (radii.empty()) radii.push_back(params_.radius);
+        return radii;
+    }
+
+    void reopen_tried() { std::replace(care_.begin(), care_.end(), kTried, kOpen); }
+
+    void place(const Trial& trial, const Execution& execution) {
+        Indices open;
+        for (std::size_t i = 0; i < care_.size(); ++i) {
+            if (care_[i] == kOpen) open.push_back(grid_.order()[i]);
         }
-        if (kept.size() == seeds.size()) return {};
-        const double reach = std::max(spacing, 1e-9 * radius);
-        return uncovered(points_, open, kept, reach, execution);
+        if (open.empty()) return;
+        const Indices chosen =
+            poisson_disk_subset(select(points_, open), params_.spacing * trial.radius,
+                                params_.random_seed, execution);
+        std::vector<Seed> seeds(chosen.size());
+        parallel_for(execution, seeds.size(), kSeedsPerChunk,
+                     [&](std::size_t begin, std::size_t end, std::size_t) {
+                         TargetArea target;
+                         PieceGrower grower;
+                         for (std::size_t i = begin; i < end; ++i) {
+                             seeds[i] = examine(open[chosen[i]], trial, target, grower);
+                         }
+                     });
+        // Curves first: a sheet that is laid across curves is left with none of their points.
+        take_care(seeds, true, execution);
+        take_care(seeds, false, execution);
+        mark_tried(seeds, execution);
+        std::ranges::copy_if(seeds, std::back_inserter(seeds_), &Seed::fits);
+    }
+
+    /// An LPF at a point: it fits if it promises no larger error than a smaller one there.
+    [[nodiscard]] Seed examine(std::uint32_t point, const Trial& trial, TargetArea& target,
+                               PieceGrower& grower) const {
+        Seed seed;
+        seed.point = point;
+        seed.frame.centre = points_.col(point);
+        seed.frame.radius = trial.radius;
+        shift_to_shape(seed.frame, target);
+        Frame smaller = seed.frame;
+        smaller.radius *= trial.smaller;
+        if (trial.smaller > 0) {
+            gather(smaller, target);
+            if (target.size > kEnoughPoints) return seed;
+        }
+        seed.piece = grow(seed.frame, target, grower);
+        if (trial.smaller > 0) {
+            seed.fits = suits(seed.piece, grow(smaller, target, grower), trial.smaller);
+        } else {
+            const float by_noise = seed.piece.squared_error - seed.piece.squared_bias;
+            seed.fits = trial.last_chance || seed.piece.squared_bias <= by_noise;
+        }
+        return seed;
+    }
+
+    static bool suits(const Piece& piece, const Piece& smaller, double ratio) {
+        if (!piece.exists()) return !smaller.exists();
+        if (!smaller.exists()) return true;
+        if (piece.is_curve() && !smaller.is_curve()) return true;  // as noise is near, it is thick
+        return static_cast<double>(piece.squared_error) <=
+               ratio * ratio * static_cast<double>(smaller.squared_error);
+    }
+
+    void gather(const Frame& frame, TargetArea& target) const {
+        grid_.gather(frame, static_cast<float>(params_.target_radius), target);
+    }
+
+    [[nodiscard]] Piece grow(const Frame& frame, TargetArea& target, PieceGrower& grower) const {
+        if (params_.noise <= 0) return {};
+        gather(frame, target);
+        return grower.grow(target, static_cast<float>(params_.noise / frame.radius),
+                           static_cast<float>(params_.target_radius));
+    }
+
+    /// Mean shift with a kernel as wide as the noise.
+    void shift_to_shape(Frame& frame, TargetArea& target) const {
+        if (params_.noise <= 0) return;
+        Frame ball = frame;
+        ball.radius = params_.noise;
+        grid_.gather(ball, kShiftReach, target);
+        Eigen::Vector3d at = Eigen::Vector3d::Zero();
+        for (int step = 0; step < kShifts; ++step) {
+            Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+            double weight = 0;
+            for (std::size_t i = 0; i < target.size; ++i) {
+                const Eigen::Vector3d p(target.x[i], target.y[i], target.z[i]);
+                const double w =
+                    std::exp(-(p - at).squaredNorm() / (2 * kShiftWidth * kShiftWidth));
+                sum += w * p;
+                weight += w;
+            }
+            if (weight > 0) at = sum / weight;
+        }
+        frame.centre += params_.noise * at;
+    }
+
+    /// Marks the points that LPFs of curves, or all others, take care of.
+    void take_care(std::vector<Seed>& seeds, bool of_curves, const Execution& execution) {
+        const double reach = std::max(kCare, params_.spacing);
+        for_each(seeds, execution, [&](Seed& seed, TargetArea& target) {
+            if (!seed.fits || seed.piece.is_curve() != of_curves) return;
+            gather_members(seed, reach, target);
+            if (seed.piece.exists() && !of_curves && is_made_of_curves(target)) {
+                seed.fits = false;
+                return;
+            }
+            mark(target, of_curves ? kOnCurve : kOnSurface);
+        });
+    }
+
+    /// Near a seed that did not fit, a smaller one is needed.
+    void mark_tried(std::vector<Seed>& seeds, const Execution& execution) {
+        for_each(seeds, execution, [&](Seed& seed, TargetArea& target) {
+            if (seed.fits) return;
+            gather_members(seed, params_.spacing, target);
+            mark(target, kTried);
+        });
+    }
+
+    template <typename Body>
+    static void for_each(std::vector<Seed>& seeds, const Execution& execution, const Body& body) {
+        parallel_for(execution, seeds.size(), kSeedsPerChunk,
+                     [&](std::size_t begin, std::size_t end, std::size_t) {
+                         TargetArea target;
+                         for (std::size_t i = begin; i < end; ++i) body(seeds[i], target);
+                     });
+    }
+
+    void gather_members(const Seed& seed, double reach, TargetArea& target) const {
+        grid_.gather(seed.frame, static_cast<float>(reach), target);
+        if (!seed.piece.exists()) return;
+        Frame frame = seed.frame;
+        frame.origin = seed.piece.origin;
+        frame.axes = seed.piece.axes;
+        target.to_frame(frame);
+        flatten(seed.piece, target);
+        keep_members(seed.piece, seed.piece.is_curve() ? kCareOffCurves : 1.0F, target);
+    }
+
+    [[nodiscard]] bool is_made_of_curves(const TargetArea& target) {
+        std::size_t off_curves = 0;
+        for (std::size_t i = 0; i < target.size; ++i) {
+            const std::atomic_ref<std::uint8_t> care(care_[target.index[i]]);
+            off_curves += care.load(std::memory_order_relaxed) != kOnCurve;
+        }
+        return static_cast<double>(off_curves) <
+               kLeastShareOffCurves * static_cast<double>(target.size);
+    }
+
+    /// Raises the care of points. The order of threads makes no difference.
+    void mark(const TargetArea& target, Care care) {
+        for (std::size_t i = 0; i < target.size; ++i) {
+            std::atomic_ref<std::uint8_t> mark(care_[target.index[i]]);
+            std::uint8_t now = mark.load(std::memory_order_relaxed);
+            while (now < care &&
+                   !mark.compare_exchange_weak(now, care, std::memory_order_relaxed)) {
+            }
+        }
     }
 
     /// In the order of the grid, so that neighbours in space are neighbours in work.
-    [[nodiscard]] std::vector<Frame> frames() const {
-        std::vector<Frame> result;
-        for (const std::uint32_t i : grid_.order()) {
-            if (radius_[i] <= 0) continue;
-            Frame frame;
-            frame.centre = points_.col(i);
-            frame.radius = radius_[i];
-            result.push_back(frame);
+    [[nodiscard]] Seeds result() {
+        Indices place(grid_.size());
+        for (std::size_t i = 0; i < place.size(); ++i) {
+            place[grid_.order()[i]] = static_cast<std::uint32_t>(i);
+        }
+        std::ranges::stable_sort(seeds_, {}, [&](const Seed& s) { return place[s.point]; });
+        Seeds result;
+        for (const Seed& seed : seeds_) {
+            result.frames.push_back(seed.frame);
+            result.pieces.push_back(seed.piece);
         }
         return result;
     }
@@ -138,13 +272,14 @@ private:
     const Points& points_;
     const PointGrid& grid_;
     const SeedingParams& params_;
-    std::vector<double> radius_;  // of the seed at each point; 0 = no seed
+    std::vector<std::uint8_t> care_;  // Care of each point, in the grid's order
+    std::vector<Seed> seeds_;
 };
 
 }  // namespace
 
-std::vector<Frame> place_seeds(const Points& points, const PointGrid& grid,
-                               const SeedingParams& params, const Execution& execution) {
+Seeds place_seeds(const Points& points, const PointGrid& grid, const SeedingParams& params,
+                  const Execution& execution) {
     return Seeding(points, grid, params).run(execution);
 }
 

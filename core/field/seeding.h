@@ -5,6 +5,7 @@
 
 #include "core/base/parallel.h"
 #include "core/field/frame.h"
+#include "core/field/piece.h"
 #include "core/field/target_area.h"
 
 namespace lpf {
@@ -14,18 +15,23 @@ struct SeedingParams {
     double radius = 0.0;         ///< r of the LPFs [input length]
     double spacing = 0.5;        ///< least distance of two seeds [radius]; 0 = every point
     double target_radius = 1.1;  ///< of the target areas [radius]
-    /// Spread off the mean plane that noise explains [input length]. Where the target area spreads
-    /// further, and further than any edge does, it holds more than one side of the shape: seeds get
-    /// smaller radii there. 0 = one radius for all.
-    double noise_spread = 0.0;
+    /// Standard deviation of the points off the shape [input length]; 0 = unknown: an LPF is about
+    /// all that its target area holds.
+    double noise = 0.0;
+    bool adapt_radius = false;  ///< LPFs as large as the shape around them allows
     std::uint64_t random_seed = 1;
 };
 
-/// Frames at the seeds (paper Sec. 3.1), axes not yet set, in the order of the grid: their target
-/// areas cover all points. Departs from the paper, which has one radius for a shape.
+/// LPFs that are placed but have no pose yet.
+struct Seeds {
+    std::vector<Frame> frames;
+    std::vector<Piece> pieces;  ///< what each is about; without noise, of no dimension
+};
+
+/// Seeds (paper Sec. 3.1), in the order of the grid: every point is in the piece of an LPF near it.
+/// Departs from the paper, which has one radius for a shape, and takes all points within it.
 /// @param grid over `points`
-[[nodiscard]] std::vector<Frame> place_seeds(const Points& points, const PointGrid& grid,
-                                             const SeedingParams& params,
-                                             const Execution& execution);
+[[nodiscard]] Seeds place_seeds(const Points& points, const PointGrid& grid,
+                                const SeedingParams& params, const Execution& execution);
 
 }  // namespace lpf

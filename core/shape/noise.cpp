@@ -35,12 +35,14 @@ constexpr int kSplitRounds = 4;
 constexpr double kLargestBall = 0.25;
 constexpr std::size_t kMostInBall = 3000;
 
-double median(std::vector<double>& values) {
+double quantile(std::vector<double>& values, double share) {
     if (values.empty()) return 0.0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+    const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+    std::nth_element(values.begin(), values.begin() + at, values.end());
+    return values[static_cast<std::size_t>(at)];
 }
+
+double median(std::vector<double>& values) { return quantile(values, 0.5); }
 
 /// Up to `count` points spread over the cloud, the same for every run.
 std::vector<Eigen::Index> sample(const Points& points, std::size_t count) {
@@ -103,21 +105,40 @@ double spread_off_plane(const Points& points, const std::vector<SpatialIndex::Ne
     return std::sqrt(unbiased * (parted < kTwoSheets * whole ? parted : whole));
 }
 
-/// The spread in the smallest ball around a point that is wide enough for it; less than 0 where
-/// none is: the point is alone, or all around it is thinner than it is rough.
+/// A ball cuts off what noise carries beyond it: the spread in one of radius R is too small by about
+/// this much times (spread / R)^2.
+constexpr double kCutOff = 1.9;
+
+/// Edges and thin parts add to the spread, so that less than the median is noise. Of balls on a
+/// plane, the spread at this quantile lies so many standard deviations below the mean.
+constexpr double kQuantile = 0.3;
+constexpr double kDeviationsBelow = 0.524;
+
+double undo_cuts(double spread, double radius, std::size_t points) {
+    const double share = spread / radius;
+    const double counted = static_cast<double>(std::min(points, kMostInBall));
+    return spread * (1 + kCutOff * share * share) * (1 + kDeviationsBelow / std::sqrt(2 * counted));
+}
+
+/// The spread in the smallest ball around a place of the shape that is wide enough for it; less than
+/// 0 where none is: the point is alone, or all around it is thinner than it is rough.
 double noise_around(const Points& points, const SpatialIndex& index, Eigen::Index i, double radius,
                     double largest, std::vector<SpatialIndex::Neighbour>& ball) {
     for (; radius <= largest; radius *= kGrowth) {
         index.within(points.col(i), radius, ball);
         if (ball.size() < kFewestForPlane) continue;
+        // The point is off the shape; the mean of those around it is nearer.
+        Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+        for (const SpatialIndex::Neighbour& n : ball) middle += points.col(n.index);
+        index.within(middle / static_cast<double>(ball.size()), radius, ball);
+        if (ball.size() < kFewestForPlane) continue;
         const double spread = spread_off_plane(points, ball);
-        if (kSigmasInBall * spread <= radius) return spread;
+        if (kSigmasInBall * spread <= radius) return undo_cuts(spread, radius, ball.size());
     }
     return -1.0;
 }
 
-/// The median over a sample of the points, each in a ball of its own, so that edges and thin parts
-/// count for no more than their share.
+/// A low quantile over a sample of the points, each in a ball of its own.
 double noise_of(const Points& points, const SpatialIndex& index, double radius, double largest,
                 const Execution& execution) {
     const std::vector<Eigen::Index> chosen = sample(points, kNoiseSample);
@@ -129,7 +150,7 @@ double noise_of(const Points& points, const SpatialIndex& index, double radius, 
         }
     });
     std::erase(spreads, -1.0);
-    return median(spreads);
+    return quantile(spreads, kQuantile);
 }
 
 /// Distances to the nearest other position, and to the point that makes the ball full.

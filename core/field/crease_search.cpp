@@ -1,0 +1,233 @@
+#include "core/field/crease_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "core/field/blur.h"
+#include "core/field/normal_equations.h"
+#include "core/field/piece_fit.h"
+
+namespace lpf {
+namespace {
+
+/// A bias below this share of the error by noise is not worth a search.
+constexpr float kLeastBias = 0.5F;
+
+/// The creased piece must err less than this share of the smooth one, and lose few of its members.
+constexpr float kMostError = 0.7F;
+constexpr double kLeastMembers = 0.9;
+
+/// A crease is one if it is no artefact of noise, neither flat nor a wall, passes the middle, and
+/// has members on both sides.
+constexpr double kLeastSigmas = 6.0;
+constexpr float kLeastSlope = 0.2F;
+constexpr float kMostSteepness = 2.0F;
+constexpr float kMostOffCentre = 0.35F;
+constexpr double kLeastOnEachSide = 0.2;
+
+/// First guess: two planes to the means of blocks, for some directions and offsets.
+constexpr int kBlocks = 9;
+constexpr int kDirections = 12;
+constexpr int kOffsets = 2;  // to either side
+constexpr double kOffsetStep = 0.25;
+
+/// Refinement, by Gauss and Newton: how far a step may turn or shift the crease.
+constexpr int kRounds = 4;
+constexpr double kLongestStep = 0.3;
+constexpr float kFirstReach = 0.15F;
+constexpr double kFlattestSlope = 0.05;
+constexpr double kDampingOfBends = 1e-4;
+constexpr double kDamping = 1e-10;
+
+struct Line {
+    double angle = 0;  ///< of its normal
+    double at = 0;
+    [[nodiscard]] double x() const { return std::cos(angle); }
+    [[nodiscard]] double y() const { return std::sin(angle); }
+};
+
+void set_line(const Line& line, Crease& crease) {
+    crease.normal_x = static_cast<float>(line.x());
+    crease.normal_y = static_cast<float>(line.y());
+    crease.at = static_cast<float>(line.at);
+}
+
+struct BlockMean {
+    double points = 0;
+    double x = 0;
+    double y = 0;
+    double z = 0;
+};
+
+std::array<BlockMean, kBlocks * kBlocks> block_means(const PieceSample& sample) {
+    std::array<BlockMean, kBlocks * kBlocks> blocks{};
+    const auto cell = [&](float value) {
+        const float share = (value / sample.extent() + 1) / 2;
+        return std::clamp(static_cast<int>(share * kBlocks), 0, kBlocks - 1);
+    };
+    for (std::size_t i = 0; i < sample.size(); ++i) {
+        BlockMean& block = blocks[static_cast<std::size_t>(cell(sample.y[i]) * kBlocks +
+                                                           cell(sample.x[i]))];
+        block.points += 1;
+        block.x += sample.x[i];
+        block.y += sample.y[i];
+        block.z += sample.z[i];
+    }
+    for (BlockMean& block : blocks) {
+        if (block.points == 0) continue;
+        block.x /= block.points;
+        block.y /= block.points;
+        block.z /= block.points;
+    }
+    return blocks;
+}
+
+/// The best two planes over all points of the target area.
+Line guess_line(const PieceSample& sample, Piece& piece) {
+    const auto blocks = block_means(sample);
+    double least = std::numeric_limits<double>::infinity();
+    Line best;
+    for (int k = 0; k < kDirections * (2 * kOffsets + 1); ++k) {
+        const Line line{k % kDirections * std::numbers::pi / kDirections,
+                        (k / kDirections - kOffsets) * kOffsetStep};
+        Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
+        Eigen::Vector4d right = Eigen::Vector4d::Zero();
+        double squares = 0;
+        for (const BlockMean& b : blocks) {
+            const double distance = std::abs(line.x() * b.x + line.y() * b.y - line.at);
+            const Eigen::Vector4d row(1, b.x, b.y, distance);
+            matrix += b.points * row * row.transpose();
+            right += b.points * b.z * row;
+            squares += b.points * b.z * b.z;
+        }
+        matrix.diagonal().array() += kDamping * (1 + matrix(0, 0));
+        const Eigen::Vector4d planes = matrix.ldlt().solve(right);
+        const double left = squares - planes.dot(right);
+        if (left >= least) continue;
+        least = left;
+        best = line;
+        for (int c = 0; c < 3; ++c) piece.coefficients[c] = static_cast<float>(planes[c]);
+        piece.crease.slope = static_cast<float>(planes[3]);
+    }
+    return best;
+}
+
+void set_steepness(float sigmas, Piece& piece) {
+    const float* c = piece.coefficients;
+    piece.steepness =
+        std::sqrt(1 + c[1] * c[1] + c[2] * c[2] + piece.crease.slope * piece.crease.slope);
+    piece.reach = piece.noise * sigmas * piece.steepness;
+}
+
+/// Surface, slope and place of the crease at once, from the members.
+/// @returns the standard deviation of the slope for noise of unit size; nothing if there is no fold
+std::optional<double> refine(PieceSample& sample, float sigmas, Line line, Piece& piece) {
+    double deviation = 0;
+    for (int round = 0; round < kRounds; ++round) {
+        set_line(line, piece.crease);
+        set_steepness(sigmas, piece);
+        if (round == 0) piece.reach = std::max(piece.reach, piece.steepness * kFirstReach);
+        sample.measure(piece, sample.size());
+        NormalEquations<9> equations;
+        for (std::size_t i = 0; i < sample.size(); ++i) {
+            if (!sample.is_member(piece, i)) continue;
+            const double x = sample.x[i];
+            const double y = sample.y[i];
+            const double along = line.x() * y - line.y() * x;
+            const float d = piece.crease.signed_distance(sample.x[i], sample.y[i]);
+            const double sign = blurred_sign(d, piece.noise);
+            equations.add({1, x, y, x * x, x * y, y * y, blurred_distance(d, piece.noise), sign,
+                           sign * along},
+                          {sample.z[i]});
+        }
+        for (int k = 0; k < 9; ++k) {
+            equations.damp(k, k >= 3 && k < 6 ? kDampingOfBends : kDamping);
+        }
+        const auto decomposed = equations.decomposed();
+        const Eigen::Matrix<double, 9, 1> solution = decomposed.solve(equations.right());
+        const double slope = solution[6];
+        if (!solution.allFinite() || std::abs(slope) < kFlattestSlope) return std::nullopt;
+        const Eigen::Matrix<double, 9, 1> unit = Eigen::Matrix<double, 9, 1>::Unit(6);
+        deviation = std::sqrt(decomposed.solve(unit)[6]);
+        for (int k = 0; k < 6; ++k) piece.coefficients[k] = static_cast<float>(solution[k]);
+        piece.crease.slope = static_cast<float>(slope);
+        if (round + 1 == kRounds) break;
+        line.at -= std::clamp(solution[7] / slope, -kLongestStep, kLongestStep);
+        line.angle += std::clamp(solution[8] / slope, -kLongestStep, kLongestStep);
+    }
+    set_steepness(sigmas, piece);
+    sample.measure(piece, sample.size());
+    return deviation;
+}
+
+bool has_both_sides(const PieceSample& sample, const Piece& piece) {
+    double all = 0;
+    double beyond = 0;
+    for (std::size_t i = 0; i < sample.size(); ++i) {
+        if (!sample.is_member(piece, i)) continue;
+        all += 1;
+        beyond += piece.crease.signed_distance(sample.x[i], sample.y[i]) > 0;
+    }
+    return std::min(beyond, all - beyond) >= kLeastOnEachSide * all;
+}
+
+std::size_t count_members(const PieceSample& sample, const Piece& piece) {
+    std::size_t members = 0;
+    for (std::size_t i = 0; i < sample.size(); ++i) {
+        members += static_cast<std::size_t>(sample.is_member(piece, i));
+    }
+    return members;
+}
+
+/// A surface with a crease over the mean plane of all points of the target area.
+std::optional<Piece> creased(PieceSample& sample, TargetArea all, const Piece& smooth,
+                             float sigmas) {
+    const PrincipalDirections principal = principal_directions(all);
+    Piece piece;
+    piece.dimension = kSurface;
+    piece.noise = smooth.noise;
+    piece.origin = principal.mean;
+    piece.axes = principal.axes;
+    sample.look_along(piece, sample.size());
+    const Line line = guess_line(sample, piece);
+    const std::optional<double> deviation = refine(sample, sigmas, line, piece);
+    if (!deviation) return std::nullopt;
+    const float slope = std::abs(piece.crease.slope);
+    const double by_noise = *deviation * static_cast<double>(piece.noise * piece.steepness);
+    if (static_cast<double>(slope) < kLeastSigmas * by_noise || slope < kLeastSlope ||
+        piece.steepness > kMostSteepness || std::abs(piece.crease.at) > kMostOffCentre ||
+        !has_both_sides(sample, piece)) {
+        return std::nullopt;
+    }
+    return piece;
+}
+
+}  // namespace
+
+void fold_at_crease(PieceSample& sample, float sigmas, Piece& piece) {
+    if (piece.is_curve()) return;
+    if (piece.squared_bias <= kLeastBias * (piece.squared_error - piece.squared_bias)) return;
+    const auto before = static_cast<double>(count_members(sample, piece));
+    TargetArea all;
+    all.x = sample.px;
+    all.y = sample.py;
+    all.z = sample.pz;
+    all.size = sample.size();
+    std::optional<Piece> folded = creased(sample, std::move(all), piece, sigmas);
+    if (folded) {
+        const auto members = static_cast<double>(estimate_error(sample, *folded));
+        if (members >= kLeastMembers * before &&
+            folded->squared_error <= kMostError * piece.squared_error) {
+            piece = *folded;
+            return;
+        }
+    }
+    sample.look_along(piece, sample.size());
+    sample.measure(piece, sample.size());
+}
+
+}  // namespace lpf

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "core/field/local_probing_field.h"
+#include "core/field/target_area.h"
+
+namespace lpf {
+
+/// A straight fold of a surface: the height changes by `slope` times the distance to the line
+/// normal_x x + normal_y y = at, on both sides of it. No fold: slope 0.
+struct Crease {
+    float slope = 0.0F;
+    float normal_x = 1.0F;  ///< unit normal of the line, in the plane
+    float normal_y = 0.0F;
+    float at = 0.0F;
+
+    [[nodiscard]] float signed_distance(float x, float y) const {
+        return normal_x * x + normal_y * y - at;
+    }
+};
+
+/// The one part of the shape that an LPF is about: a parabolic surface, perhaps with a crease, two
+/// such surfaces at a small distance, or a cubic curve. What lies further off than noise carries is
+/// another part: the other side of a plate, a wire above a wall. Departs from the paper, where an
+/// LPF is about all points in its target area and its field starts from a plane.
+/// Lengths in units of the LPF's radius, relative to the centre of the target area.
+///
+/// Isotropic noise blurs what bends: points near an edge lie inside of it on average. A piece
+/// therefore knows both where the noisy points lie, `mean`, and where the shape is, `shape`.
+struct Piece {
+    Dimension dimension = kTooFewPoints;  ///< kTooFewPoints: the LPF is about all its target area
+    Eigen::Vector3f origin = Eigen::Vector3f::Zero();
+    Eigen::Matrix3f axes = Eigen::Matrix3f::Identity();  ///< columns t1, t2, n; in SO(3)
+    /// Surface: height over (1, x, y, xx, xy, yy). Curve: y over (1, x, xx, xxx), then height.
+    float coefficients[8] = {};
+    Crease crease;
+    /// Two sheets: squared half of their distance over (1, x, y). One: the first value is 0.
+    float sheets[3] = {};
+    float noise = 0.0F;      ///< standard deviation of the points off the shape
+    float reach = 0.0F;      ///< points further off do not belong to the piece
+    float steepness = 1.0F;  ///< distance along n for a distance across the surface
+    float squared_bias = 0.0F;   ///< what the piece leaves of the shape
+    float squared_error = 0.0F;  ///< that, and the noise that goes into the coefficients
+
+    [[nodiscard]] bool exists() const { return dimension != kTooFewPoints; }
+    [[nodiscard]] bool is_curve() const { return dimension == kCurve; }
+
+    /// Where the noisy points lie on average over (x, y), relative to the plane of the axes: in y
+    /// and z on a curve, in z on a surface; between two sheets.
+    [[nodiscard]] Eigen::Vector3f mean(float x, float y) const;
+
+    /// Where the shape is: the mean without what noise adds to it.
+    [[nodiscard]] Eigen::Vector3f shape(float x, float y) const;
+
+    /// Half the distance of two sheets at (x, y); 0 where there is one.
+    [[nodiscard]] float half_gap(float x, float y) const;
+
+    /// Squared distance of a place in the piece's axes to the mean of the nearer sheet, along n on a
+    /// surface.
+    [[nodiscard]] float squared_offset(float x, float y, float z) const;
+};
+
+/// From the piece's axes to coordinates in which the mean of its points is flat.
+void flatten(const Piece& piece, TargetArea& target);
+
+/// Leaves of a flattened target area what lies within `share` of the piece's reach, relative to the
+/// nearer sheet. A piece that does not exist keeps all.
+void keep_members(const Piece& piece, float share, TargetArea& target);
+
+}  // namespace lpf

@@ -1,0 +1,129 @@
+#include "core/field/piece_fit.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/field/normal_equations.h"
+
+namespace lpf {
+namespace {
+
+/// Keeps a fit determined; bending needs more evidence than a slope.
+constexpr double kDamping = 1e-13;
+constexpr double kDampingOfBends = 1e-5;
+
+/// Blocks along an axis of a surface, and along a curve.
+constexpr int kBlocks = 7;
+constexpr int kCurveBlocks = 14;
+
+void fit_surface(const PieceSample& sample, std::size_t count, Piece& piece) {
+    NormalEquations<6> equations;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!sample.is_member(piece, i)) continue;
+        const double x = sample.x[i];
+        const double y = sample.y[i];
+        equations.add({1, x, y, x * x, x * y, y * y}, {sample.z[i]});
+    }
+    for (int k = 0; k < 6; ++k) equations.damp(k, k < 3 ? kDamping : kDampingOfBends);
+    const auto solution = equations.solve();
+    if (!solution.allFinite()) return;
+    for (int k = 0; k < 6; ++k) piece.coefficients[k] = static_cast<float>(solution(k, 0));
+}
+
+void fit_curve(const PieceSample& sample, std::size_t count, Piece& piece) {
+    NormalEquations<4, 2> equations;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!sample.is_member(piece, i)) continue;
+        const double x = sample.x[i];
+        equations.add({1, x, x * x, x * x * x}, {sample.y[i], sample.z[i]});
+    }
+    for (int k = 0; k < 4; ++k) equations.damp(k, k < 2 ? kDamping : kDampingOfBends);
+    const auto solution = equations.solve();
+    if (!solution.allFinite()) return;
+    for (int k = 0; k < 4; ++k) {
+        piece.coefficients[k] = static_cast<float>(solution(k, 0));
+        piece.coefficients[4 + k] = static_cast<float>(solution(k, 1));
+    }
+}
+
+struct Block {
+    double points = 0;
+    double y = 0;
+    double z = 0;
+    double squares = 0;
+};
+
+using Blocks = std::array<Block, kBlocks * kBlocks>;
+
+std::size_t block_of(const Piece& piece, float extent, float x, float y) {
+    const auto cell = [extent](float value, int count) {
+        const float share = (value / extent + 1) / 2;
+        return std::clamp(static_cast<int>(share * static_cast<float>(count)), 0, count - 1);
+    };
+    return static_cast<std::size_t>(piece.is_curve()
+                                        ? cell(x, kCurveBlocks)
+                                        : cell(y, kBlocks) * kBlocks + cell(x, kBlocks));
+}
+
+double unknowns_of(const Piece& piece) {
+    if (piece.is_curve()) return 8;
+    return 6 + (piece.crease.slope != 0 ? 3 : 0);
+}
+
+}  // namespace
+
+void fit_smooth(const PieceSample& sample, std::size_t count, Piece& piece) {
+    if (piece.is_curve()) {
+        fit_curve(sample, count, piece);
+    } else {
+        fit_surface(sample, count, piece);
+    }
+}
+
+std::size_t estimate_error(const PieceSample& sample, Piece& piece) {
+    Blocks blocks{};
+    std::size_t members = 0;
+    for (std::size_t i = 0; i < sample.size(); ++i) {
+        if (!sample.is_member(piece, i)) continue;
+        ++members;
+        const float x = sample.x[i];
+        const float y = sample.y[i];
+        const Eigen::Vector3f mean = piece.mean(x, y);
+        const double dy = piece.is_curve() ? y - mean.y() : 0;
+        double dz = sample.z[i] - mean.z();
+        if (piece.sheets[0] != 0) dz -= std::copysign(piece.half_gap(x, y), dz);
+        Block& block = blocks[block_of(piece, sample.extent(), x, y)];
+        block.points += 1;
+        block.y += dy;
+        block.z += dz;
+        block.squares += dy * dy + dz * dz;
+    }
+    const double unknowns = unknowns_of(piece);
+    const auto n = static_cast<double>(members);
+    if (n < unknowns + 2) {
+        piece.squared_error = 1.0F;
+        return members;
+    }
+    double used = 0;
+    double between = 0;
+    double within = 0;
+    for (const Block& block : blocks) {
+        if (block.points == 0) continue;
+        const double of_means = (block.y * block.y + block.z * block.z) / block.points;
+        used += 1;
+        between += of_means;
+        within += block.squares - of_means;
+    }
+    const double directions = piece.is_curve() ? 2 : 1;
+    const double variance = n > used + 8 ? within / (n - used) / directions
+                                         : static_cast<double>(piece.noise) * piece.noise;
+    const double by_noise = std::max(0.0, used * directions - unknowns) * variance;
+    const double across = 1 / (static_cast<double>(piece.steepness) * piece.steepness);
+    const double bias = across * std::max(0.0, between - by_noise) / n;
+    const double fit = across * unknowns * variance / n / static_cast<double>(sample.stride());
+    piece.squared_bias = static_cast<float>(bias);
+    piece.squared_error = static_cast<float>(bias + fit);
+    return members;
+}
+
+}  // namespace lpf

@@ -1,0 +1,98 @@
+#include "core/field/piece_growth.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/field/crease_search.h"
+#include "core/field/curve_search.h"
+#include "core/field/piece_fit.h"
+#include "core/field/sheet_split.h"
+
+namespace lpf {
+namespace {
+
+/// Further off than this many sigma, a point is not of the piece. On curves, which noise leaves in
+/// two directions, a narrower piece keeps crossing ones apart.
+constexpr float kSigmasOffSurface = 2.6F;
+constexpr float kSigmasOffCurve = 2.2F;
+
+/// Without noise, this share of the radius is as near as a parabola comes to a shape.
+constexpr float kLeastNoise = 0.01F;
+
+/// The first ball must be as wide as the noise is thick, and hold a few points.
+constexpr float kSigmasInFirstBall = 3.5F;
+constexpr float kPointsInFirstBall = 24.0F;
+constexpr float kGrowth = 1.4F;
+
+/// Fewer points show a direction but no bend.
+constexpr std::size_t kPointsOfBend = 24;
+
+/// More points than this add nothing that a piece could tell.
+constexpr std::size_t kMostPoints = 3000;
+
+}  // namespace
+
+Piece PieceGrower::grow(const TargetArea& target, float noise, float extent) {
+    if (target.size < kFewestTargetPoints) return {};
+    Piece piece;
+    piece.noise = std::max(noise, kLeastNoise);
+    const auto n = static_cast<float>(target.size);
+    const float first =
+        std::max(kSigmasInFirstBall * piece.noise, extent * std::sqrt(kPointsInFirstBall / n));
+    sample_.assign(target, kMostPoints, first, kGrowth, extent);
+
+    if (!grow_through_balls(piece)) return {};
+    for (int round = 0; round < 2; ++round) {
+        fit_smooth(sample_, sample_.size(), piece);
+        sample_.measure(piece, sample_.size());
+    }
+    estimate_error(sample_, piece);
+
+    follow_crossing_curve(sample_, kSigmasOffCurve, piece);
+    fold_at_crease(sample_, kSigmasOffSurface, piece);
+    split_sheets(sample_, kSigmasOffSurface, piece);
+    return piece;
+}
+
+bool PieceGrower::grow_through_balls(Piece& piece) {
+    piece.reach = 1e3F;  // all of the first ball
+    std::fill(sample_.squared_offset.begin(), sample_.squared_offset.end(), 0.0F);
+    for (std::size_t ball = 0; ball < sample_.balls(); ++ball) {
+        if (ball > 0) {
+            sample_.look_along(piece, sample_.points_in(ball));
+            sample_.measure(piece, sample_.points_in(ball));
+        }
+        if (!straighten(ball, piece)) return false;
+        const std::size_t count = sample_.points_in(ball);
+        sample_.measure(piece, count);
+        if (members_.size >= kPointsOfBend) {
+            fit_smooth(sample_, count, piece);
+            sample_.measure(piece, count);
+        }
+    }
+    return true;
+}
+
+/// The straight piece along the principal directions of the members in a ball.
+bool PieceGrower::straighten(std::size_t ball, Piece& piece) {
+    members_.reserve(sample_.size());
+    members_.size = 0;
+    for (std::size_t i = 0; i < sample_.points_in(ball); ++i) {
+        if (!sample_.is_member(piece, i)) continue;
+        members_.x[members_.size] = sample_.px[i];
+        members_.y[members_.size] = sample_.py[i];
+        members_.z[members_.size] = sample_.pz[i];
+        ++members_.size;
+    }
+    if (members_.size < kFewestTargetPoints) return false;
+    const PrincipalDirections principal = principal_directions(members_);
+    if (!piece.exists()) piece.dimension = local_dimension(principal, members_.size);
+    piece.origin = principal.mean;
+    piece.axes = principal.axes;
+    piece.reach = piece.noise * (piece.is_curve() ? kSigmasOffCurve : kSigmasOffSurface);
+    std::fill(std::begin(piece.coefficients), std::end(piece.coefficients), 0.0F);
+    sample_.look_along(piece, sample_.points_in(ball));
+    return true;
+}
+
+}  // namespace lpf

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "core/field/piece_sample.h"
+
+namespace lpf {
+
+/// Finds the pieces of target areas. One for each thread.
+class PieceGrower {
+public:
+    /// Grows the piece through the centre of a target area from a small ball to the whole of it:
+    /// what does not continue what is there already stays outside.
+    /// @param target in centre-relative coordinates
+    /// @param noise  standard deviation of the points off the shape [radius], >= 0
+    /// @param extent of the target area [radius]
+    /// @returns a piece that does not exist where there are too few points
+    [[nodiscard]] Piece grow(const TargetArea& target, float noise, float extent);
+
+private:
+    bool grow_through_balls(Piece& piece);
+    bool straighten(std::size_t ball, Piece& piece);
+
+    PieceSample sample_;
+    TargetArea members_;
+};
+
+}  // namespace lpf

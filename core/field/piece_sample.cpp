@@ -1,0 +1,74 @@
+#include "core/field/piece_sample.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace lpf {
+namespace {
+
+/// A ball that is not smaller than the outermost by this ratio is left out.
+constexpr float kLeastStep = 1.2F;
+
+}  // namespace
+
+void PieceSample::assign(const TargetArea& target, std::size_t most, float first, float growth,
+                         float extent) {
+    const std::size_t stride = std::max<std::size_t>(1, (target.size + most - 1) / most);
+    const std::size_t count = (target.size + stride - 1) / stride;
+    stride_ = static_cast<float>(stride);
+    extent_ = extent;
+
+    ball_radius_.clear();
+    for (float radius = first; radius * kLeastStep < extent; radius *= growth) {
+        ball_radius_.push_back(radius);
+    }
+    ball_radius_.push_back(extent);
+
+    // A counting sort by rings keeps the order within each.
+    const auto ring_of = [&](float squared) {
+        std::size_t ring = 0;
+        while (ring + 1 < ball_radius_.size() && squared > ball_radius_[ring] * ball_radius_[ring]) {
+            ++ring;
+        }
+        return ring;
+    };
+    squared_offset.resize(count);
+    for (std::vector<float>* values : {&px, &py, &pz, &squared_distance, &x, &y, &z}) {
+        values->resize(count);
+    }
+    ball_end_.assign(ball_radius_.size(), 0);
+    for (std::size_t i = 0, k = 0; i < target.size; i += stride, ++k) {
+        squared_offset[k] = target.x[i] * target.x[i] + target.y[i] * target.y[i] +
+                            target.z[i] * target.z[i];
+        ++ball_end_[ring_of(squared_offset[k])];
+    }
+    std::size_t before = 0;
+    for (std::size_t& end : ball_end_) before += std::exchange(end, before);
+    for (std::size_t i = 0, k = 0; i < target.size; i += stride, ++k) {
+        const std::size_t at = ball_end_[ring_of(squared_offset[k])]++;
+        px[at] = target.x[i];
+        py[at] = target.y[i];
+        pz[at] = target.z[i];
+        squared_distance[at] = squared_offset[k];
+    }
+}
+
+void PieceSample::look_along(const Piece& piece, std::size_t count) {
+    const Eigen::Matrix3f& a = piece.axes;
+    for (std::size_t i = 0; i < count; ++i) {
+        const float dx = px[i] - piece.origin[0];
+        const float dy = py[i] - piece.origin[1];
+        const float dz = pz[i] - piece.origin[2];
+        x[i] = a(0, 0) * dx + a(1, 0) * dy + a(2, 0) * dz;
+        y[i] = a(0, 1) * dx + a(1, 1) * dy + a(2, 1) * dz;
+        z[i] = a(0, 2) * dx + a(1, 2) * dy + a(2, 2) * dz;
+    }
+}
+
+void PieceSample::measure(const Piece& piece, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        squared_offset[i] = piece.squared_offset(x[i], y[i], z[i]);
+    }
+}
+
+}  // namespace lpf
