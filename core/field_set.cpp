@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/kernels.h"
 #include "core/field/seeding.h"
 #include "core/learn/pose.h"
 
@@ -124,6 +125,11 @@ void FieldSet::gather_ball(std::size_t j, TargetArea& target) const {
 void FieldSet::probe(std::size_t j, Worker& worker) const {
     gather(j, worker.probe.target);
     operator_->probe(frames[j], dimensions[j] == kCurve, worker.probe, worker.field.data());
+    if (pieces[j].is_curve()) {
+        // The field starts from the curve, not from the plane: no atom is needed to get there.
+        const auto padded = static_cast<std::size_t>(pattern_.padded_size());
+        kernels::add_scaled(1.0F, pattern_.channel(1), worker.field.data() + padded, padded);
+    }
 }
 
 void FieldSet::for_each_probed(std::string_view phase, const Execution& execution, int atoms,

@@ -58,7 +58,14 @@ void shake(std::vector<Eigen::Vector2f>& places, double apart) {
     }
 }
 
-/// Whether target points lie near places of the plane: cells of one support distance.
+/// Beyond a straight border, the unit vectors to the points near by sum up to this share of their
+/// number or more; among points they cancel out.
+constexpr float kOneSided = 0.75F;
+
+/// A place so near a point needs no others around it [support distances].
+constexpr float kVeryNear = 0.25F;
+
+/// Whether target points lie around places of the plane: cells of one support distance.
 class Support {
 public:
     Support(const TargetArea& target, float distance) : distance_(distance) {
@@ -70,18 +77,29 @@ public:
         }
     }
 
+    /// A place is on the shape if a point is very near, or if one is within the distance and points
+    /// within twice of it do not all lie to one side.
     [[nodiscard]] bool covers(float x, float y) const {
-        for (int j = std::max(0, cell_of(y) - 1); j <= std::min(side_ - 1, cell_of(y) + 1); ++j) {
-            for (int i = std::max(0, cell_of(x) - 1); i <= std::min(side_ - 1, cell_of(x) + 1);
+        const Eigen::Vector2f place(x, y);
+        const float wide = 4 * distance_ * distance_;
+        float nearest = wide;
+        float count = 0;
+        Eigen::Vector2f directions = Eigen::Vector2f::Zero();
+        for (int j = std::max(0, cell_of(y) - 2); j <= std::min(side_ - 1, cell_of(y) + 2); ++j) {
+            for (int i = std::max(0, cell_of(x) - 2); i <= std::min(side_ - 1, cell_of(x) + 2);
                  ++i) {
                 for (const Eigen::Vector2f& p : cells_[static_cast<std::size_t>(j * side_ + i)]) {
-                    if ((p - Eigen::Vector2f(x, y)).squaredNorm() <= distance_ * distance_) {
-                        return true;
-                    }
+                    const float squared = (p - place).squaredNorm();
+                    if (squared > wide) continue;
+                    nearest = std::min(nearest, squared);
+                    directions += (p - place) / std::sqrt(std::max(squared, 1e-12F));
+                    count += 1;
                 }
             }
         }
-        return false;
+        if (nearest > distance_ * distance_) return false;
+        return nearest <= kVeryNear * kVeryNear * distance_ * distance_ ||
+               directions.norm() < kOneSided * count;
     }
 
 private:
@@ -137,7 +155,8 @@ void propose(const Frame& frame, const Piece& piece, const Pattern& pattern,
     for (const Eigen::Vector2f& place : places) {
         const auto p = displace(pattern, field, place);
         if (!p || !supported.covers(p->x(), p->y())) continue;
-        const Eigen::Vector3f on_piece = *p + piece.shape(p->x(), p->y());
+        Eigen::Vector3f on_piece = *p + piece.shape(p->x(), p->y());
+        if (piece.is_curve()) on_piece.y() -= place.y();
         const Eigen::Vector3f gap(0, 0, piece.half_gap(p->x(), p->y()));
         proposals.push_back(frame.to_world(on_piece + gap));
         if (gap.z() > 0) proposals.push_back(frame.to_world(on_piece - gap));

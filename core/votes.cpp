@@ -123,6 +123,7 @@ private:
             if (before_ && piece.dimension == kSurface) move.head<2>().setZero();
             move += piece.shape(x + move.x(), y + move.y()) - piece.mean(x, y);
             move.z() -= target.z[i];
+            if (piece.is_curve()) move.y() -= y;
             const float weight =
                 reliability_[j] * (params_.sharp ? 1.0F : fade * fade) * density.at(x, y);
             const auto propose = [&](const Eigen::Vector3f& to) {

@@ -27,6 +27,11 @@ constexpr float kGrowth = 1.4F;
 /// Fewer points show a direction but no bend.
 constexpr std::size_t kPointsOfBend = 24;
 
+/// A first ball that few points rather than noise make as wide may look like a curve by chance. A
+/// tube twice as thick as a curve holds less than this times its members, as a strip of a sheet does
+/// not.
+constexpr double kMostBesideCurve = 1.5;
+
 /// More points than this add nothing that a piece could tell.
 constexpr std::size_t kMostPoints = 3000;
 
@@ -34,24 +39,47 @@ constexpr std::size_t kMostPoints = 3000;
 
 Piece PieceGrower::grow(const TargetArea& target, float noise, float extent) {
     if (target.size < kFewestTargetPoints) return {};
-    Piece piece;
-    piece.noise = std::max(noise, kLeastNoise);
-    const auto n = static_cast<float>(target.size);
-    const float first =
-        std::max(kSigmasInFirstBall * piece.noise, extent * std::sqrt(kPointsInFirstBall / n));
-    sample_.assign(target, kMostPoints, first, kGrowth, extent);
+    noise = std::max(noise, kLeastNoise);
+    const float by_points =
+        extent * std::sqrt(kPointsInFirstBall / static_cast<float>(target.size));
+    const float by_noise = kSigmasInFirstBall * noise;
+    sample_.assign(target, kMostPoints, std::max(by_noise, by_points), kGrowth, extent);
 
+    Piece piece = grow_as(kTooFewPoints, noise);
+    if (piece.is_curve() && by_points > by_noise && is_strip(piece)) {
+        piece = grow_as(kSurface, noise);
+    }
+    if (!piece.exists()) return piece;
+    follow_crossing_curve(sample_, kSigmasOffCurve, piece);
+    fold_at_crease(sample_, kSigmasOffSurface, piece);
+    split_sheets(sample_, kSigmasOffSurface, piece);
+    return piece;
+}
+
+/// @param dimension of the piece; kTooFewPoints: that of the first ball
+Piece PieceGrower::grow_as(Dimension dimension, float noise) {
+    Piece piece;
+    piece.dimension = dimension;
+    piece.noise = noise;
     if (!grow_through_balls(piece)) return {};
     for (int round = 0; round < 2; ++round) {
         fit_smooth(sample_, sample_.size(), piece);
         sample_.measure(piece, sample_.size());
     }
     estimate_error(sample_, piece);
-
-    follow_crossing_curve(sample_, kSigmasOffCurve, piece);
-    fold_at_crease(sample_, kSigmasOffSurface, piece);
-    split_sheets(sample_, kSigmasOffSurface, piece);
     return piece;
+}
+
+bool PieceGrower::is_strip(const Piece& curve) const {
+    Piece thick = curve;
+    thick.reach *= 2;
+    double members = 0;
+    double in_tube = 0;
+    for (std::size_t i = 0; i < sample_.size(); ++i) {
+        members += sample_.is_member(curve, i);
+        in_tube += sample_.is_member(thick, i);
+    }
+    return in_tube > kMostBesideCurve * members;
 }
 
 bool PieceGrower::grow_through_balls(Piece& piece) {

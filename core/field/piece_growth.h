@@ -16,7 +16,9 @@ public:
     [[nodiscard]] Piece grow(const TargetArea& target, float noise, float extent);
 
 private:
+    [[nodiscard]] Piece grow_as(Dimension dimension, float noise);
     bool grow_through_balls(Piece& piece);
+    [[nodiscard]] bool is_strip(const Piece& curve) const;
     bool straighten(std::size_t ball, Piece& piece);
 
     PieceSample sample_;

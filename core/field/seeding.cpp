@@ -15,6 +15,9 @@ namespace {
 constexpr double kSizes[] = {2.8, 2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25};
 constexpr double kLeastSigmasOfSize = 2.4;
 
+/// Where there is less noise [radius], LPFs larger than asked for only lose detail.
+constexpr double kLeastNoiseToAverage = 0.03;
+
 /// Seeds of each size are placed in this many rounds, each where those before left points.
 constexpr int kRounds = 2;
 
@@ -29,6 +32,10 @@ constexpr double kLeastShareOffCurves = 0.3;
 
 /// An LPF of so many points is large enough: a larger one could hardly average better.
 constexpr std::size_t kEnoughPoints = 4000;
+
+/// More bias makes a misfit [sigma], kept only where it alone takes care of this share of its points.
+constexpr double kMostBias = 0.3;
+constexpr double kShareOfMisfit = 0.1;
 
 /// From a point that noise has put somewhere to the middle of what is around it [sigma].
 constexpr double kShiftWidth = 1.2;
@@ -83,6 +90,7 @@ public:
             }
             reopen_tried();
         }
+        drop_misfits(execution);
         return result();
     }
 
@@ -92,6 +100,7 @@ private:
         std::vector<double> radii;
         for (const double size : kSizes) {
             const double radius = size * params_.radius;
+            if (size > 1 && params_.noise < kLeastNoiseToAverage * params_.radius) continue;
             if (radius >= kLeastSigmasOfSize * params_.noise) radii.push_back(radius);
         }
         if (radii.empty()) radii.push_back(params_.radius);
@@ -211,6 +220,30 @@ private:
             gather_members(seed, params_.spacing, target);
             mark(target, kTried);
         });
+    }
+
+    /// LPFs that leave much of the shape unexplained do harm where better ones care for their points.
+    void drop_misfits(const Execution& execution) {
+        std::ranges::fill(care_, kOpen);
+        const double reach = std::max(kCare, params_.spacing);
+        const auto is_misfit = [&](const Seed& seed) {
+            const double bias =
+                std::sqrt(static_cast<double>(seed.piece.squared_bias)) * seed.frame.radius;
+            return seed.piece.exists() && bias > kMostBias * params_.noise;
+        };
+        for_each(seeds_, execution, [&](Seed& seed, TargetArea& target) {
+            if (is_misfit(seed)) return;
+            gather_members(seed, reach, target);
+            mark(target, kOnSurface);
+        });
+        for_each(seeds_, execution, [&](Seed& seed, TargetArea& target) {
+            if (!is_misfit(seed)) return;
+            gather_members(seed, reach, target);
+            std::size_t open = 0;
+            for (std::size_t i = 0; i < target.size; ++i) open += care_[target.index[i]] == kOpen;
+            seed.fits = static_cast<double>(open) > kShareOfMisfit * static_cast<double>(target.size);
+        });
+        std::erase_if(seeds_, [](const Seed& seed) { return !seed.fits; });
     }
 
     template <typename Body>

@@ -15,6 +15,9 @@ namespace {
 constexpr double kThinnest = 0.6;
 constexpr double kThickest = 16.0;
 
+/// Where there is less noise [radius], sheets that it hides lie nearer than any detail.
+constexpr float kLeastNoise = 0.03F;
+
 /// The surface scatters more than this many variances where a split is looked for.
 constexpr double kLeastScatter = 1.3;
 
@@ -88,7 +91,7 @@ std::optional<Piece> two_sheets(PieceSample& sample, float sigmas, Piece piece) 
 }  // namespace
 
 void split_sheets(PieceSample& sample, float sigmas, Piece& piece) {
-    if (piece.is_curve() || piece.crease.slope != 0) return;
+    if (piece.is_curve() || piece.crease.slope != 0 || piece.noise < kLeastNoise) return;
     std::optional<Piece> split = two_sheets(sample, sigmas, piece);
     if (!split) return;
     sample.measure(*split, sample.size());
