@@ -119,6 +119,55 @@ void second_moments(const float* x, const float* y, const float* z, std::size_t 
 }
 
 LPF_MULTIVERSION
+void parabola_moments(const float* x, const float* y, const float* z, const float* off, float limit,
+                      std::size_t n, float out[21]) {
+    float s = 0, sx = 0, sy = 0, xx = 0, xy = 0, yy = 0, xxx = 0, xxy = 0, xyy = 0, yyy = 0;
+    float xxxx = 0, xxxy = 0, xxyy = 0, xyyy = 0, yyyy = 0;
+    float sz = 0, xz = 0, yz = 0, xxz = 0, xyz = 0, yyz = 0;
+#pragma omp simd reduction(+ : s, sx, sy, xx, xy, yy, xxx, xxy, xyy, yyy, xxxx, xxxy, xxyy, xyyy, \
+                               yyyy, sz, xz, yz, xxz, xyz, yyz)
+    for (std::size_t i = 0; i < n; ++i) {
+        const float w = off[i] <= limit ? 1.0F : 0.0F;
+        const float px = w * x[i], py = w * y[i], pz = w * z[i];
+        const float px2 = px * px, pxy = px * py, py2 = py * py;
+        s += w, sx += px, sy += py;
+        xx += px2, xy += pxy, yy += py2;
+        xxx += px2 * px, xxy += px2 * py, xyy += px * py2, yyy += py2 * py;
+        xxxx += px2 * px2, xxxy += px2 * pxy, xxyy += px2 * py2, xyyy += pxy * py2;
+        yyyy += py2 * py2;
+        sz += pz, xz += px * pz, yz += py * pz;
+        xxz += px2 * pz, xyz += pxy * pz, yyz += py2 * pz;
+    }
+    const float sums[21] = {s,    sx,   sy,   xx,   xy, yy, xxx, xxy, xyy, yyy, xxxx,
+                            xxxy, xxyy, xyyy, yyyy, sz, xz, yz,  xxz, xyz, yyz};
+    for (int k = 0; k < 21; ++k) out[k] = sums[k];
+}
+
+LPF_MULTIVERSION
+void offsets_from_parabola(const float c[6], const float* x, const float* y, const float* z,
+                           std::size_t n, float* out) {
+    const float c0 = c[0], c1 = c[1], c2 = c[2], c3 = c[3], c4 = c[4], c5 = c[5];
+#pragma omp simd
+    for (std::size_t i = 0; i < n; ++i) {
+        const float d = z[i] - (c0 + x[i] * (c1 + x[i] * c3 + y[i] * c4) + y[i] * (c2 + y[i] * c5));
+        out[i] = d * d;
+    }
+}
+
+LPF_MULTIVERSION
+void offsets_from_cubics(const float c[8], const float* x, const float* y, const float* z,
+                         std::size_t n, float* out) {
+    const float a0 = c[0], a1 = c[1], a2 = c[2], a3 = c[3];
+    const float b0 = c[4], b1 = c[5], b2 = c[6], b3 = c[7];
+#pragma omp simd
+    for (std::size_t i = 0; i < n; ++i) {
+        const float dy = y[i] - (a0 + x[i] * (a1 + x[i] * (a2 + x[i] * a3)));
+        const float dz = z[i] - (b0 + x[i] * (b1 + x[i] * (b2 + x[i] * b3)));
+        out[i] = dy * dy + dz * dz;
+    }
+}
+
+LPF_MULTIVERSION
 void convolve(const float* in, float* out, std::size_t n, int stride, const float* taps,
               int reach) {
     // A block of outputs stays in registers while all taps pass over it.

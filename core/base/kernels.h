@@ -33,6 +33,20 @@ void to_frame(const float* axes, const float* origin, float* x, float* y, float*
 /// Sums of x, y, z, xx, xy, xz, yy, yz, zz.
 void second_moments(const float* x, const float* y, const float* z, std::size_t n, float out[9]);
 
+/// What a parabola z = c . (1, x, y, xx, xy, yy) is fitted from, over the points with
+/// off[i] <= limit: sums of x^a y^b with a + b <= 4, ordered by a + b, then by b; then of z times
+/// 1, x, y, xx, xy, yy.
+void parabola_moments(const float* x, const float* y, const float* z, const float* off, float limit,
+                      std::size_t n, float out[21]);
+
+/// out[i] = (z[i] - c . (1, x, y, xx, xy, yy))^2.
+void offsets_from_parabola(const float c[6], const float* x, const float* y, const float* z,
+                           std::size_t n, float* out);
+
+/// out[i] = squared distance of (y, z) to the cubics c[0..3] and c[4..7] of x, over (1, x, xx, xxx).
+void offsets_from_cubics(const float c[8], const float* x, const float* y, const float* z,
+                         std::size_t n, float* out);
+
 /// out[i] = sum over k in [-reach, reach] of taps[k] in[i + k stride], for i in [0, n).
 /// @param taps points at the middle of 2 reach + 1 values
 void convolve(const float* in, float* out, std::size_t n, int stride, const float* taps, int reach);

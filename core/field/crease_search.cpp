@@ -37,6 +37,7 @@ constexpr double kOffsetStep = 0.25;
 
 /// Refinement, by Gauss and Newton: how far a step may turn or shift the crease.
 constexpr int kRounds = 4;
+constexpr std::size_t kPointsOfRound = 400;  // enough but for the last
 constexpr double kLongestStep = 0.3;
 constexpr float kFirstReach = 0.15F;
 constexpr double kFlattestSlope = 0.05;
@@ -132,16 +133,18 @@ std::optional<double> refine(PieceSample& sample, float sigmas, Line line, Piece
         set_steepness(sigmas, piece);
         if (round == 0) piece.reach = std::max(piece.reach, piece.steepness * kFirstReach);
         sample.measure(piece, sample.size());
+        const bool last = round + 1 == kRounds;
+        const std::size_t stride = last ? 1 : 1 + sample.size() / kPointsOfRound;
         NormalEquations<9> equations;
-        for (std::size_t i = 0; i < sample.size(); ++i) {
+        for (std::size_t i = 0; i < sample.size(); i += stride) {
             if (!sample.is_member(piece, i)) continue;
             const double x = sample.x[i];
             const double y = sample.y[i];
             const double along = line.x() * y - line.y() * x;
-            const float d = piece.crease.signed_distance(sample.x[i], sample.y[i]);
-            const double sign = blurred_sign(d, piece.noise);
-            equations.add({1, x, y, x * x, x * y, y * y, blurred_distance(d, piece.noise), sign,
-                           sign * along},
+            const BlurredDistance blurred =
+                blur(piece.crease.signed_distance(sample.x[i], sample.y[i]), piece.noise);
+            equations.add({1, x, y, x * x, x * y, y * y, blurred.distance, blurred.sign,
+                           blurred.sign * along},
                           {sample.z[i]});
         }
         for (int k = 0; k < 9; ++k) {
@@ -155,9 +158,10 @@ std::optional<double> refine(PieceSample& sample, float sigmas, Line line, Piece
         deviation = std::sqrt(decomposed.solve(unit)[6]);
         for (int k = 0; k < 6; ++k) piece.coefficients[k] = static_cast<float>(solution[k]);
         piece.crease.slope = static_cast<float>(slope);
-        if (round + 1 == kRounds) break;
+        if (last) break;
         line.at -= std::clamp(solution[7] / slope, -kLongestStep, kLongestStep);
         line.angle += std::clamp(solution[8] / slope, -kLongestStep, kLongestStep);
+        if (std::abs(line.at) > 2 * static_cast<double>(kMostOffCentre)) return std::nullopt;
     }
     set_steepness(sigmas, piece);
     sample.measure(piece, sample.size());

@@ -11,6 +11,12 @@ class NormalEquations {
 public:
     using Row = double[N];
 
+    /// @param count of the rows that are summed elsewhere
+    explicit NormalEquations(double count = 0) : count_(count) {}
+
+    void set(int i, int j, double sum) { matrix_(i, j) = sum; }
+    void set_right(int i, double sum) { right_(i, 0) = sum; }
+
     void add(const Row& row, const double (&value)[R]) {
         for (int i = 0; i < N; ++i) {
             for (int j = 0; j <= i; ++j) matrix_(i, j) += row[i] * row[j];
@@ -33,7 +39,7 @@ public:
 private:
     Eigen::Matrix<double, N, N> matrix_ = Eigen::Matrix<double, N, N>::Zero();  // lower half
     Eigen::Matrix<double, N, R> right_ = Eigen::Matrix<double, N, R>::Zero();
-    double count_ = 0;
+    double count_;
 };
 
 }  // namespace lpf

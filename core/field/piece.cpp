@@ -18,7 +18,7 @@ float height(const Piece& piece, float x, float y) {
     const float smooth = parabola(piece.coefficients, x, y);
     const Crease& crease = piece.crease;
     if (crease.slope == 0) return smooth;
-    return smooth + crease.slope * blurred_distance(crease.signed_distance(x, y), piece.noise);
+    return smooth + crease.slope * blur(crease.signed_distance(x, y), piece.noise).distance;
 }
 
 }  // namespace
@@ -41,7 +41,7 @@ Eigen::Vector3f Piece::shape(float x, float y) const {
     place.z() -= variance * (coefficients[3] + coefficients[5]);
     if (crease.slope != 0) {
         const float d = crease.signed_distance(x, y);
-        place.z() += crease.slope * (std::abs(d) - blurred_distance(d, noise));
+        place.z() += crease.slope * (std::abs(d) - blur(d, noise).distance);
     }
     return place;
 }

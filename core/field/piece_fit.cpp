@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "core/base/kernels.h"
 #include "core/field/normal_equations.h"
 
 namespace lpf {
@@ -16,14 +18,28 @@ constexpr double kDampingOfBends = 1e-5;
 constexpr int kBlocks = 7;
 constexpr int kCurveBlocks = 14;
 
-void fit_surface(const PieceSample& sample, std::size_t count, Piece& piece) {
-    NormalEquations<6> equations;
-    for (std::size_t i = 0; i < count; ++i) {
-        if (!sample.is_member(piece, i)) continue;
-        const double x = sample.x[i];
-        const double y = sample.y[i];
-        equations.add({1, x, y, x * x, x * y, y * y}, {sample.z[i]});
+/// The normal equations of a parabola, from the moments in the order of kernels::parabola_moments.
+NormalEquations<6> parabola_equations(const float* moments) {
+    // Where x^a y^b is among them, for the products of 1, x, y, xx, xy, yy.
+    constexpr int kPowers[6][2] = {{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}};
+    NormalEquations<6> equations(moments[0]);
+    for (int i = 0; i < 6; ++i) {
+        for (int j = 0; j <= i; ++j) {
+            const int y = kPowers[i][1] + kPowers[j][1];
+            const int degree = kPowers[i][0] + kPowers[j][0] + y;
+            equations.set(i, j, moments[degree * (degree + 1) / 2 + y]);
+        }
+        equations.set_right(i, moments[15 + i]);
     }
+    return equations;
+}
+
+void fit_surface(const PieceSample& sample, std::size_t count, Piece& piece) {
+    float moments[21];
+    kernels::parabola_moments(sample.x.data(), sample.y.data(), sample.z.data(),
+                              sample.squared_offset.data(), piece.reach * piece.reach, count,
+                              moments);
+    NormalEquations<6> equations = parabola_equations(moments);
     for (int k = 0; k < 6; ++k) equations.damp(k, k < 3 ? kDamping : kDampingOfBends);
     const auto solution = equations.solve();
     if (!solution.allFinite()) return;

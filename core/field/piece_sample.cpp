@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/kernels.h"
+
 namespace lpf {
 namespace {
 
@@ -54,20 +56,22 @@ void PieceSample::assign(const TargetArea& target, std::size_t most, float first
 }
 
 void PieceSample::look_along(const Piece& piece, std::size_t count) {
-    const Eigen::Matrix3f& a = piece.axes;
-    for (std::size_t i = 0; i < count; ++i) {
-        const float dx = px[i] - piece.origin[0];
-        const float dy = py[i] - piece.origin[1];
-        const float dz = pz[i] - piece.origin[2];
-        x[i] = a(0, 0) * dx + a(1, 0) * dy + a(2, 0) * dz;
-        y[i] = a(0, 1) * dx + a(1, 1) * dy + a(2, 1) * dz;
-        z[i] = a(0, 2) * dx + a(1, 2) * dy + a(2, 2) * dz;
-    }
+    std::copy_n(px.begin(), count, x.begin());
+    std::copy_n(py.begin(), count, y.begin());
+    std::copy_n(pz.begin(), count, z.begin());
+    const Eigen::Matrix<float, 3, 3, Eigen::RowMajor> axes = piece.axes;
+    kernels::to_frame(axes.data(), piece.origin.data(), x.data(), y.data(), z.data(), count);
 }
 
 void PieceSample::measure(const Piece& piece, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-        squared_offset[i] = piece.squared_offset(x[i], y[i], z[i]);
+    float* out = squared_offset.data();
+    if (piece.is_curve()) {
+        kernels::offsets_from_cubics(piece.coefficients, x.data(), y.data(), z.data(), count, out);
+    } else if (piece.crease.slope == 0 && piece.sheets[0] == 0) {
+        kernels::offsets_from_parabola(piece.coefficients, x.data(), y.data(), z.data(), count,
+                                       out);
+    } else {
+        for (std::size_t i = 0; i < count; ++i) out[i] = piece.squared_offset(x[i], y[i], z[i]);
     }
 }
 

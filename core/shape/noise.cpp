@@ -25,6 +25,8 @@ constexpr std::size_t kPointsInSmallBall = 24;
 /// The smallest ball that is wide enough tells noise from shape: what curves at its scale is shape.
 constexpr double kSigmasInBall = 4.0;
 constexpr double kGrowth = 1.2;
+constexpr double kMostGrowth = 2.0;
+constexpr double kShareOfStep = 0.9;  // of the way to the ball that the spread asks for
 
 /// Two sheets leave less than this share of the variance when they are told apart; an even block
 /// leaves .25, noise alone .36, what a ball cuts out of noise .30.
@@ -124,7 +126,9 @@ double undo_cuts(double spread, double radius, std::size_t points) {
 /// 0 where none is: the point is alone, or all around it is thinner than it is rough.
 double noise_around(const Points& points, const SpatialIndex& index, Eigen::Index i, double radius,
                     double largest, std::vector<SpatialIndex::Neighbour>& ball) {
-    for (; radius <= largest; radius *= kGrowth) {
+    double growth = kGrowth;
+    for (; radius <= largest; radius *= growth) {
+        growth = kGrowth;
         index.within(points.col(i), radius, ball);
         if (ball.size() < kFewestForPlane) continue;
         // The point is off the shape; the mean of those around it is nearer.
@@ -133,7 +137,9 @@ double noise_around(const Points& points, const SpatialIndex& index, Eigen::Inde
         index.within(middle / static_cast<double>(ball.size()), radius, ball);
         if (ball.size() < kFewestForPlane) continue;
         const double spread = spread_off_plane(points, ball);
-        if (kSigmasInBall * spread <= radius) return undo_cuts(spread, radius, ball.size());
+        const double wanted = kSigmasInBall * spread / radius;
+        if (wanted <= 1) return undo_cuts(spread, radius, ball.size());
+        growth = std::clamp(kShareOfStep * wanted, kGrowth, kMostGrowth);
     }
     return -1.0;
 }
