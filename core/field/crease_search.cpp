@@ -30,7 +30,7 @@ constexpr float kMostOffCentre = 0.35F;
 constexpr double kLeastOnEachSide = 0.2;
 
 /// First guess: two planes to the means of blocks, for some directions and offsets.
-constexpr int kBlocks = 9;
+constexpr int kBlocks = 7;
 constexpr int kDirections = 12;
 constexpr int kOffsets = 2;  // to either side
 constexpr double kOffsetStep = 0.25;
@@ -99,6 +99,7 @@ Line guess_line(const PieceSample& sample, Piece& piece) {
         Eigen::Vector4d right = Eigen::Vector4d::Zero();
         double squares = 0;
         for (const BlockMean& b : blocks) {
+            if (b.points == 0) continue;
             const double distance = std::abs(line.x() * b.x + line.y() * b.y - line.at);
             const Eigen::Vector4d row(1, b.x, b.y, distance);
             matrix += b.points * row * row.transpose();

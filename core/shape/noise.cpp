@@ -14,7 +14,7 @@ namespace lpf {
 namespace {
 
 constexpr std::size_t kSpacingSample = 4096;
-constexpr std::size_t kNoiseSample = 1024;
+constexpr std::size_t kNoiseSample = 400;
 constexpr std::size_t kPointsInBall = 150;
 constexpr std::size_t kFewestForPlane = 8;
 
@@ -25,8 +25,9 @@ constexpr std::size_t kPointsInSmallBall = 24;
 /// The smallest ball that is wide enough tells noise from shape: what curves at its scale is shape.
 constexpr double kSigmasInBall = 4.0;
 constexpr double kGrowth = 1.2;
-constexpr double kMostGrowth = 2.0;
+constexpr double kMostGrowth = 1.4;
 constexpr double kShareOfStep = 0.9;  // of the way to the ball that the spread asks for
+constexpr double kNearlyWide = 1.1;
 
 /// Two sheets leave less than this share of the variance when they are told apart; an even block
 /// leaves .25, noise alone .36, what a ball cuts out of noise .30.
@@ -122,6 +123,12 @@ double undo_cuts(double spread, double radius, std::size_t points) {
     return spread * (1 + kCutOff * share * share) * (1 + kDeviationsBelow / std::sqrt(2 * counted));
 }
 
+Eigen::Vector3d mean_of(const Points& points, const std::vector<SpatialIndex::Neighbour>& ball) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const SpatialIndex::Neighbour& neighbour : ball) sum += points.col(neighbour.index);
+    return sum / static_cast<double>(ball.size());
+}
+
 /// The spread in the smallest ball around a place of the shape that is wide enough for it; less than
 /// 0 where none is: the point is alone, or all around it is thinner than it is rough.
 double noise_around(const Points& points, const SpatialIndex& index, Eigen::Index i, double radius,
@@ -131,14 +138,15 @@ double noise_around(const Points& points, const SpatialIndex& index, Eigen::Inde
         growth = kGrowth;
         index.within(points.col(i), radius, ball);
         if (ball.size() < kFewestForPlane) continue;
-        // The point is off the shape; the mean of those around it is nearer.
-        Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-        for (const SpatialIndex::Neighbour& n : ball) middle += points.col(n.index);
-        index.within(middle / static_cast<double>(ball.size()), radius, ball);
-        if (ball.size() < kFewestForPlane) continue;
-        const double spread = spread_off_plane(points, ball);
-        const double wanted = kSigmasInBall * spread / radius;
-        if (wanted <= 1) return undo_cuts(spread, radius, ball.size());
+        double wanted = kSigmasInBall * spread_off_plane(points, ball) / radius;
+        if (wanted <= kNearlyWide) {
+            // The point is off the shape; the mean of those around it is nearer.
+            index.within(mean_of(points, ball), radius, ball);
+            if (ball.size() < kFewestForPlane) continue;
+            const double spread = spread_off_plane(points, ball);
+            wanted = kSigmasInBall * spread / radius;
+            if (wanted <= 1) return undo_cuts(spread, radius, ball.size());
+        }
         growth = std::clamp(kShareOfStep * wanted, kGrowth, kMostGrowth);
     }
     return -1.0;
