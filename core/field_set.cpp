@@ -156,12 +156,12 @@ void FieldSet::for_each_ball(std::string_view phase, const Execution& execution,
 }
 
 void FieldSet::for_each_gathered(std::string_view phase, const Execution& execution,
-                                 const Body& body, Gather gather) const {
+                                 const Body& body, Gather gather_points) const {
     parallel_for(execution, phase, "fields", size(), kFieldsPerChunk,
                  [&](std::size_t begin, std::size_t end, std::size_t chunk) {
                      Worker worker = make_worker(0);
                      for (std::size_t j = begin; j < end; ++j) {
-                         (this->*gather)(j, worker.probe.target);
+                         (this->*gather_points)(j, worker.probe.target);
                          body(j, worker, chunk);
                      }
                  });

@@ -81,7 +81,7 @@ private:
     void gather_ball(std::size_t j, TargetArea& target) const;
     using Gather = void (FieldSet::*)(std::size_t j, TargetArea& target) const;
     void for_each_gathered(std::string_view phase, const Execution& execution, const Body& body,
-                           Gather gather) const;
+                           Gather gather_points) const;
     void probe(std::size_t j, Worker& worker) const;
 
     Pattern pattern_;

@@ -40,8 +40,8 @@ constexpr std::size_t kMostPoints = 3000;
 Piece PieceGrower::grow(const TargetArea& target, float noise, float extent) {
     if (target.size < kFewestTargetPoints) return {};
     noise = std::max(noise, kLeastNoise);
-    const float by_points =
-        extent * std::sqrt(kPointsInFirstBall / static_cast<float>(target.size));
+    const auto points = static_cast<float>(std::min(target.size, kMostPoints));
+    const float by_points = extent * std::sqrt(kPointsInFirstBall / points);
     const float by_noise = kSigmasInFirstBall * noise;
     sample_.assign(target, kMostPoints, std::max(by_noise, by_points), kGrowth, extent);
 

@@ -115,6 +115,7 @@ private:
             if (care_[i] == kOpen) open.push_back(grid_.order()[i]);
         }
         if (open.empty()) return;
+        std::ranges::sort(open);
         const Indices chosen =
             poisson_disk_subset(select(points_, open), params_.spacing * trial.radius,
                                 params_.random_seed, execution);
@@ -152,14 +153,18 @@ private:
         if (trial.smaller > 0) {
             seed.fits = suits(seed.piece, grow(smaller, target, grower), trial.smaller);
         } else {
-            const float by_noise = seed.piece.squared_error - seed.piece.squared_bias;
-            seed.fits = trial.last_chance || seed.piece.squared_bias <= by_noise;
+            seed.fits = trial.last_chance || explains_its_points(seed.piece);
         }
         return seed;
     }
 
+    [[nodiscard]] bool explains_its_points(const Piece& piece) const {
+        if (params_.noise <= 0) return true;
+        return piece.exists() && piece.squared_bias <= piece.squared_error - piece.squared_bias;
+    }
+
     static bool suits(const Piece& piece, const Piece& smaller, double ratio) {
-        if (!piece.exists()) return !smaller.exists();
+        if (!piece.exists()) return false;
         if (!smaller.exists()) return true;
         if (piece.is_curve() && !smaller.is_curve()) return true;  // as noise is near, it is thick
         return static_cast<double>(piece.squared_error) <=

@@ -33,6 +33,7 @@ constexpr double kNearlyWide = 1.1;
 /// leaves .25, noise alone .36, what a ball cuts out of noise .30.
 constexpr double kTwoSheets = 0.23;
 constexpr int kSplitRounds = 4;
+constexpr double kFewestForTwo = 50;  // of fewer points, chance makes two groups
 
 /// A ball larger than this share of the diagonal shows the whole shape, not what it is made of.
 constexpr double kLargestBall = 0.25;
@@ -104,7 +105,7 @@ double spread_off_plane(const Points& points, const std::vector<SpatialIndex::Ne
     // Three degrees of freedom went into the plane.
     const double unbiased = count / std::max(1.0, count - 3);
     const double whole = std::max(0.0, solver.eigenvalues()[0]);
-    const double parted = variance_of_two(heights);
+    const double parted = count < kFewestForTwo ? whole : variance_of_two(heights);
     return std::sqrt(unbiased * (parted < kTwoSheets * whole ? parted : whole));
 }
 

@@ -76,12 +76,16 @@ TEST(AutoParameterRules, ResamplingOfAMeshFollowsItExactly) {
     EXPECT_EQ(resolve(Task::Resample, 0.1).resample.detail, 0);
 }
 
-TEST(AutoParameterRules, SmallerRadiiAreForCloudsWhoseRadiusIsAutomatic) {
-    EXPECT_NEAR(resolve(Task::Denoise, 0.1).analysis.noise_spread, 0.15, 1e-12);
-    EXPECT_EQ(resolve(Task::Analyze, 0.1, {}, test::cube_mesh()).analysis.noise_spread, 0);
+TEST(AutoParameterRules, RadiiAdaptWherePointsMoveAndTheRadiusIsAutomatic) {
+    EXPECT_EQ(resolve(Task::Denoise, 0.1).analysis.noise, 0.1);
+    EXPECT_TRUE(resolve(Task::Denoise, 0.1).analysis.adapt_radius);
+    EXPECT_EQ(resolve(Task::Analyze, 0.1).analysis.noise, 0) << "the paper's LPFs";
+    EXPECT_FALSE(resolve(Task::Analyze, 0.1).analysis.adapt_radius);
+    EXPECT_EQ(resolve(Task::Resample, 0.1, {}, test::cube_mesh()).analysis.noise, 0);
     ParameterRequest request;
     request.radius = 1.0;
-    EXPECT_EQ(resolve(Task::Denoise, 0.1, request).analysis.noise_spread, 0);
+    EXPECT_EQ(resolve(Task::Denoise, 0.1, request).analysis.noise, 0.1);
+    EXPECT_FALSE(resolve(Task::Denoise, 0.1, request).analysis.adapt_radius);
 }
 
 TEST(AutoParameterRules, TheSeedAndTheChoicesOfTheUserArePassedOn) {

@@ -25,7 +25,6 @@ DenoiseParams params_for(bool sharp) {
     params.analysis.iterations = 1;
     params.analysis.atoms = 6;
     params.analysis.lambda = 0.05;
-    params.analysis.noise_spread = 0.03;  // LPFs of several sizes
     params.iterations = 1;
     params.sharp = sharp;
     return params;

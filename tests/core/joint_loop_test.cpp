@@ -28,7 +28,6 @@ Shape plate() {
 AnalysisParams params_for_plate() {
     AnalysisParams params;
     params.radius = 0.35;
-    params.noise_spread = 0.03;
     params.atoms = 6;
     params.lambda = 0.1;
     params.iterations = 1;
@@ -195,8 +194,8 @@ TEST(AnalysisLimits, AreThoseOfTheDocumentation) {
     EXPECT_FALSE(accepts([](auto& p) { p.learning_rounds = 101; }));
     EXPECT_TRUE(accepts([](auto& p) { p.smoothing = 0.5; }));
     EXPECT_FALSE(accepts([](auto& p) { p.smoothing = 0.51; }));
-    EXPECT_TRUE(accepts([](auto& p) { p.noise_spread = 0; }));
-    EXPECT_FALSE(accepts([](auto& p) { p.noise_spread = -0.01; }));
+    EXPECT_TRUE(accepts([](auto& p) { p.noise = 0; }));
+    EXPECT_FALSE(accepts([](auto& p) { p.noise = -0.01; }));
 }
 
 TEST(FieldSet, PassesOverLpfsOfTooFewPoints) {
@@ -236,7 +235,6 @@ TEST(FieldSet, GathersAsFarAsTheTargetRadius) {
     for (const double reach : {1.0, 1.4, 2.0}) {
         AnalysisParams params = params_for_plate();
         params.target_radius = reach;
-        params.noise_spread = 0;
         const FieldSet fields(shape, params, {});
         float farthest = 0;
         fields.for_each_target("", {}, [&](std::size_t, auto& worker, std::size_t) {
@@ -285,7 +283,6 @@ TEST(FieldSet, SeedsAndRandomPatternsDependOnTheSeed) {
 TEST(FieldSet, SamplesAMeshFinerThanATenthOfTheRadius) {
     const Shape mesh = test::plane_grid(1.0, 2);
     AnalysisParams params = params_for_plate();
-    params.noise_spread = 0;
     params.probing = ProbingKind::NearestTriangle;
     const FieldSet fields(mesh, params, {});
     // Triangles have an area of half a square of side .1 r at most.
@@ -294,7 +291,10 @@ TEST(FieldSet, SamplesAMeshFinerThanATenthOfTheRadius) {
 
 TEST(FieldSet, LambdaGrowsWithTheSquareOfTheShrinking) {
     const Shape shape = plate();
-    const FieldSet fields(shape, params_for_plate(), {});
+    AnalysisParams params = params_for_plate();
+    params.noise = 0.02;
+    params.adapt_radius = true;
+    const FieldSet fields(shape, params, {});
     std::set<float> shares;
     for (std::size_t j = 0; j < fields.size(); ++j) {
         shares.insert(fields.lambda_share(j));

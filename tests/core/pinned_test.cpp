@@ -40,10 +40,11 @@ TEST(PinnedRules, OfDenoisingACloud) {
     EXPECT_NEAR(resolved.analysis.radius, radius, 1e-12);
     const double in_disk = 150 * std::pow(radius / 0.5, 2);
     EXPECT_NEAR(resolved.analysis.lambda, 3.5 * noise / radius * std::sqrt(193 / in_disk), 1e-12);
-    EXPECT_NEAR(resolved.analysis.noise_spread, 1.5 * noise, 1e-12);
+    EXPECT_EQ(resolved.analysis.noise, noise);
+    EXPECT_TRUE(resolved.analysis.adapt_radius);
     EXPECT_TRUE(resolved.analysis.debias);
     EXPECT_EQ(value_of(resolved, "analysisIterations"), 1);
-    EXPECT_EQ(value_of(resolved, "denoiseIterations"), noise / radius < 0.06 ? 1 : 2);
+    EXPECT_EQ(value_of(resolved, "denoiseIterations"), 1);
     EXPECT_EQ(value_of(resolved, "atoms"), 16);
     EXPECT_EQ(resolved.analysis.probing, ProbingKind::NoiseAware);
 }
@@ -51,7 +52,7 @@ TEST(PinnedRules, OfDenoisingACloud) {
 TEST(PinnedRules, OfVeryNoisyAndOfQuietClouds) {
     const auto noisy = resolve_parameters(Task::Denoise, {}, measured(0.3), {});
     EXPECT_NEAR(noisy.analysis.radius, std::hypot(0.3, 0.9), 1e-12);
-    EXPECT_EQ(noisy.denoise.iterations, 2);
+    EXPECT_EQ(noisy.denoise.iterations, 1);
     const auto quiet = resolve_parameters(Task::Denoise, {}, measured(0.0001), {});
     EXPECT_EQ(quiet.denoise.iterations, 1);
     EXPECT_EQ(resolve_parameters(Task::Denoise, {}, measured(0.0), {}).analysis.lambda, 0.002);
@@ -63,7 +64,9 @@ TEST(PinnedRules, OfResamplingAndOfAnalysis) {
     EXPECT_NEAR(cloud.resample.support, 1.5 * 0.05, 1e-12);
     EXPECT_EQ(cloud.resample.detail, 0.0);
     ASSERT_TRUE(cloud.resample.denoise);
-    EXPECT_EQ(cloud.resample.denoise->iterations, 2);
+    EXPECT_EQ(cloud.resample.denoise->iterations, 1);
+    EXPECT_EQ(cloud.resample.denoise->analysis.noise, 0.02);
+    EXPECT_NEAR(cloud.resample.analysis.noise, 0.25 * 0.02, 1e-12);
     EXPECT_EQ(cloud.resample.denoise->analysis.iterations, 1);
     EXPECT_EQ(cloud.resample.target_points, 10000U);
     EXPECT_EQ(resolve_parameters(Task::Analyze, {}, measured(0.02), {}).analysis.iterations, 10);
@@ -82,7 +85,7 @@ TEST(PinnedRules, OfAMesh) {
     EXPECT_EQ(mesh.analysis.radius, 0.25);
     EXPECT_EQ(mesh.analysis.lambda, 0.002);
     EXPECT_EQ(mesh.analysis.pattern.points, 793);
-    EXPECT_EQ(mesh.analysis.noise_spread, 0.0);
+    EXPECT_EQ(mesh.analysis.noise, 0.0);
     EXPECT_EQ(mesh.resample.detail, 1.0);
     EXPECT_EQ(mesh.resample.support, 0.0);
     EXPECT_FALSE(mesh.resample.denoise);
@@ -93,7 +96,7 @@ TEST(PinnedRules, WhatTheUserGives) {
     request.radius = 0.2;
     request.pattern_points = 200;
     auto resolved = resolve_parameters(Task::Denoise, {}, measured(0.02), request);
-    EXPECT_EQ(resolved.analysis.noise_spread, 0.0) << "a radius that is given holds everywhere";
+    EXPECT_FALSE(resolved.analysis.adapt_radius) << "a radius that is given holds everywhere";
     EXPECT_EQ(resolved.analysis.pattern.points, 193) << "the nearest grid";
     EXPECT_EQ(resolved.values.front().rule, "given by the user");
     EXPECT_TRUE(resolved.warnings.empty());

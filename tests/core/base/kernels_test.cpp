@@ -102,6 +102,58 @@ TEST_P(KernelsOf, SecondMomentsAgreeWithDoubles) {
     }
 }
 
+TEST_P(KernelsOf, ParabolaMomentsAreThoseOfThePointsWithinTheLimit) {
+    const Floats x = random_floats(n, 20);
+    const Floats y = random_floats(n, 21);
+    const Floats z = random_floats(n, 22);
+    const Floats off = random_floats(n, 23);
+    float moments[21];
+    kernels::parabola_moments(x.data(), y.data(), z.data(), off.data(), 0.2F, n, moments);
+    int next = 0;
+    const auto sum = [&](int a, int b, bool with_z) {
+        double total = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            if (off[i] > 0.2F) continue;
+            total += std::pow(double{x[i]}, a) * std::pow(double{y[i]}, b) *
+                     (with_z ? double{z[i]} : 1.0);
+        }
+        return total;
+    };
+    for (int degree = 0; degree <= 4; ++degree) {
+        for (int b = 0; b <= degree; ++b) {
+            EXPECT_NEAR(moments[next++], sum(degree - b, b, false), 20 * tolerance);
+        }
+    }
+    for (int degree = 0; degree <= 2; ++degree) {
+        for (int b = 0; b <= degree; ++b) {
+            EXPECT_NEAR(moments[next++], sum(degree - b, b, true), 20 * tolerance);
+        }
+    }
+}
+
+TEST_P(KernelsOf, OffsetsAreSquaredDistancesAlongTheNormals) {
+    const Floats x = random_floats(n, 24);
+    const Floats y = random_floats(n, 25);
+    const Floats z = random_floats(n, 26);
+    const float c[8] = {0.1F, -0.4F, 0.3F, 0.7F, -0.2F, 0.5F, 0.25F, -0.6F};
+    Floats parabola(n + 1, 7.0F);
+    Floats cubics(n + 1, 7.0F);
+    kernels::offsets_from_parabola(c, x.data(), y.data(), z.data(), n, parabola.data());
+    kernels::offsets_from_cubics(c, x.data(), y.data(), z.data(), n, cubics.data());
+    for (std::size_t i = 0; i < n; ++i) {
+        const double a = x[i];
+        const double b = y[i];
+        const double height =
+            c[0] + c[1] * a + c[2] * b + c[3] * a * a + c[4] * a * b + c[5] * b * b;
+        EXPECT_NEAR(parabola[i], std::pow(z[i] - height, 2), 1e-4);
+        const double cubic_y = c[0] + c[1] * a + c[2] * a * a + c[3] * a * a * a;
+        const double cubic_z = c[4] + c[5] * a + c[6] * a * a + c[7] * a * a * a;
+        EXPECT_NEAR(cubics[i], std::pow(b - cubic_y, 2) + std::pow(z[i] - cubic_z, 2), 1e-4);
+    }
+    EXPECT_EQ(parabola[n], 7.0F) << "wrote past the end";
+    EXPECT_EQ(cubics[n], 7.0F) << "wrote past the end";
+}
+
 TEST_P(KernelsOf, ConvolveAgreesWithItsDefinition) {
     constexpr int kReach = 2;
     constexpr int kStride = 3;
