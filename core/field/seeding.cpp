@@ -18,13 +18,16 @@ constexpr double kLeastSigmasOfSize = 2.4;
 /// Where there is less noise [radius], LPFs larger than asked for only lose detail.
 constexpr double kLeastNoiseToAverage = 0.03;
 
+/// Errors are estimates: a larger LPF may promise so much more squared error than a smaller one.
+constexpr double kTolerance = 1.25;
+
 /// Seeds of each size are placed in this many rounds, each where those before left points.
 constexpr int kRounds = 2;
 
 /// An LPF takes care of the members of its piece within this share of its radius. Members count
 /// that lie a little further off than those that the piece was fitted to: noise alone would
 /// otherwise leave points to care for everywhere.
-constexpr double kCare = 0.75;
+constexpr double kCare = 0.5;
 constexpr float kCareOffCurves = 1.3F;
 
 /// A sheet of which less is left than this, when what lies on curves is taken away, is none.
@@ -41,6 +44,10 @@ constexpr double kShareOfMisfit = 0.1;
 constexpr double kShiftWidth = 1.2;
 constexpr float kShiftReach = 4.0F;
 constexpr int kShifts = 3;
+
+/// A place of the shape is cared for if more than this share of the points near it are [sigma].
+constexpr float kCaredWithin = 1.5F;
+constexpr double kCaredShare = 0.7;
 
 constexpr std::size_t kSeedsPerChunk = 64;
 
@@ -62,6 +69,7 @@ struct Seed {
     Frame frame;
     Piece piece;
     bool fits = false;
+    bool is_needless = false;  ///< the shape there has its LPFs; noise alone made the point look new
 };
 
 /// A size that is tried, and the smaller one that it has to be better than.
@@ -76,7 +84,15 @@ struct Trial {
 class Seeding {
 public:
     Seeding(const Points& points, const PointGrid& grid, const SeedingParams& params)
-        : points_(points), grid_(grid), params_(params), care_(grid.size(), kOpen) {}
+        : points_(points),
+          grid_(grid),
+          params_(params),
+          place_(grid.size()),
+          care_(grid.size(), kOpen) {
+        for (std::size_t i = 0; i < place_.size(); ++i) {
+            place_[grid_.order()[i]] = static_cast<std::uint32_t>(i);
+        }
+    }
 
     Seeds run(const Execution& execution) {
         const std::vector<double> radii = radii_to_try();
@@ -132,6 +148,9 @@ private:
         take_care(seeds, true, execution);
         take_care(seeds, false, execution);
         mark_tried(seeds, execution);
+        for (const Seed& seed : seeds) {
+            if (seed.is_needless) care_[place_[seed.point]] = kOnSurface;
+        }
         std::ranges::copy_if(seeds, std::back_inserter(seeds_), &Seed::fits);
     }
 
@@ -143,6 +162,8 @@ private:
         seed.frame.centre = points_.col(point);
         seed.frame.radius = trial.radius;
         shift_to_shape(seed.frame, target);
+        seed.is_needless = is_cared_for(seed.frame.centre, target);
+        if (seed.is_needless) return seed;
         Frame smaller = seed.frame;
         smaller.radius *= trial.smaller;
         if (trial.smaller > 0) {
@@ -168,7 +189,7 @@ private:
         if (!smaller.exists()) return true;
         if (piece.is_curve() && !smaller.is_curve()) return true;  // as noise is near, it is thick
         return static_cast<double>(piece.squared_error) <=
-               ratio * ratio * static_cast<double>(smaller.squared_error);
+               kTolerance * ratio * ratio * static_cast<double>(smaller.squared_error);
     }
 
     void gather(const Frame& frame, TargetArea& target) const {
@@ -204,6 +225,18 @@ private:
         frame.centre += params_.noise * at;
     }
 
+    /// Whether most of the points about a place of the shape belong to LPFs already.
+    [[nodiscard]] bool is_cared_for(const Eigen::Vector3d& place, TargetArea& target) const {
+        if (params_.noise <= 0) return false;
+        Frame ball;
+        ball.centre = place;
+        ball.radius = params_.noise;
+        grid_.gather(ball, kCaredWithin, target);
+        std::size_t cared = 0;
+        for (std::size_t i = 0; i < target.size; ++i) cared += care_[target.index[i]] > kTried;
+        return static_cast<double>(cared) > kCaredShare * static_cast<double>(target.size);
+    }
+
     /// Marks the points that LPFs of curves, or all others, take care of.
     void take_care(std::vector<Seed>& seeds, bool of_curves, const Execution& execution) {
         const double reach = std::max(kCare, params_.spacing);
@@ -221,7 +254,7 @@ private:
     /// Near a seed that did not fit, a smaller one is needed.
     void mark_tried(std::vector<Seed>& seeds, const Execution& execution) {
         for_each(seeds, execution, [&](Seed& seed, TargetArea& target) {
-            if (seed.fits) return;
+            if (seed.fits || seed.is_needless) return;
             gather_members(seed, params_.spacing, target);
             mark(target, kTried);
         });
@@ -294,11 +327,7 @@ private:
 
     /// In the order of the grid, so that neighbours in space are neighbours in work.
     [[nodiscard]] Seeds result() {
-        Indices place(grid_.size());
-        for (std::size_t i = 0; i < place.size(); ++i) {
-            place[grid_.order()[i]] = static_cast<std::uint32_t>(i);
-        }
-        std::ranges::stable_sort(seeds_, {}, [&](const Seed& s) { return place[s.point]; });
+        std::ranges::stable_sort(seeds_, {}, [&](const Seed& s) { return place_[s.point]; });
         Seeds result;
         for (const Seed& seed : seeds_) {
             result.frames.push_back(seed.frame);
@@ -310,6 +339,7 @@ private:
     const Points& points_;
     const PointGrid& grid_;
     const SeedingParams& params_;
+    Indices place_;  // in the grid's order, of each point
     std::vector<std::uint8_t> care_;  // Care of each point, in the grid's order
     std::vector<Seed> seeds_;
 };

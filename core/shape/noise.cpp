@@ -115,8 +115,8 @@ constexpr double kCutOff = 1.9;
 
 /// Edges and thin parts add to the spread, so that less than the median is noise. Of balls on a
 /// plane, the spread at this quantile lies so many standard deviations below the mean.
-constexpr double kQuantile = 0.3;
-constexpr double kDeviationsBelow = 0.524;
+constexpr double kQuantile = 0.2;
+constexpr double kDeviationsBelow = 0.842;
 
 double undo_cuts(double spread, double radius, std::size_t points) {
     const double share = spread / radius;

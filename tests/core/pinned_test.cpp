@@ -155,11 +155,11 @@ TEST_P(PinnedQuality, OfDenoisingWithAutomaticParameters) {
         squares += std::pow(scan.distance(result.points.col(i)), 2);
     }
     const double rmse = std::sqrt(squares / static_cast<double>(result.points.cols()));
-    // Instruction sets round differently, and a choice of seeds may tip over: a little room.
-    EXPECT_NEAR(rmse, pinned.rmse, 0.03 * pinned.rmse);
-    EXPECT_NEAR(result.analysis.energy.back().learning, pinned.energy, 0.02 * pinned.energy);
+    // Instruction sets round differently, and a choice of pieces may tip over: a little room.
+    EXPECT_NEAR(rmse, pinned.rmse, 0.06 * pinned.rmse);
+    EXPECT_NEAR(result.analysis.energy.back().learning, pinned.energy, 0.04 * pinned.energy);
     EXPECT_NEAR(static_cast<double>(result.analysis.frames.size()),
-                static_cast<double>(pinned.fields), 0.02 * static_cast<double>(pinned.fields));
+                static_cast<double>(pinned.fields), 0.04 * static_cast<double>(pinned.fields));
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, PinnedQuality,

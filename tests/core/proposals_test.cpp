@@ -121,7 +121,8 @@ TEST_F(ProposalsOf, LieCloserThanTheSpacingWhereTheNodesDoNot) {
     EXPECT_GT(2 * to_the_rim, checked);
 }
 
-/// How many places of each LPF have a target point as near as the shape is known to go on.
+/// How many places of each LPF have a target point as near as the shape is known to go on, and either
+/// one that is very near or others that do not all lie to one side.
 std::vector<std::size_t> ProposalsOf::supported(const Candidates& all, double spacing,
                                                 int& near_the_limit) const {
     std::vector<std::size_t> expected(fields->size(), 0);
@@ -136,12 +137,21 @@ std::vector<std::size_t> ProposalsOf::supported(const Candidates& all, double sp
         const double limit = std::max({params.support / 0.35, spacing / 2 / 0.35, local});
         for (const Vector3f& place : of_field(all, j)) {
             double least = 1e30;
+            double around = 0;
+            Vector2d directions = Vector2d::Zero();
             for (std::size_t i = 0; i < target.size; ++i) {
                 const Vector2d p(double{target.x[i]}, double{target.y[i]});
-                least = std::min(least, (p - place.head<2>().cast<double>()).norm());
+                const Vector2d offset = p - place.head<2>().cast<double>();
+                least = std::min(least, offset.norm());
+                if (offset.norm() > 2 * limit) continue;
+                around += 1;
+                directions += offset / std::max(offset.norm(), 1e-6);
             }
-            near_the_limit += std::abs(least - limit) < 1e-4;
-            expected[j] += least <= limit;
+            const double one_sided = around > 0 ? directions.norm() / around : 1.0;
+            near_the_limit += std::abs(least - limit) < 1e-4 ||
+                              std::abs(least - limit / 4) < 1e-4 ||
+                              std::abs(one_sided - 0.75) < 1e-2;
+            expected[j] += least <= limit && (least <= limit / 4 || one_sided < 0.75);
         }
     });
     return expected;
