@@ -24,9 +24,10 @@ constexpr double kOutlierPoint = 4e-6;
 constexpr double kNormalPoint = 8e-6;
 constexpr double kPlacePoint = 0.15e-6;
 constexpr double kPlaceField = 2.5e-6;
+constexpr double kGrowPoint = 4e-6;     // pieces of the shape
 constexpr double kTriangleProbe = 1.9;  // of a mesh, for one of points
 constexpr double kGatherPoint = 0.004e-6;
-constexpr double kVote = 0.04e-6;
+constexpr double kVote = 0.08e-6;         // two rounds
 constexpr double kOutputPoint = 13.5e-6;  // proposals and consensus of a resampling
 constexpr double kEncodePoint = 0.3e-6;
 constexpr double kEncodePointApart = 1.5e-6;
@@ -56,8 +57,9 @@ struct Seconds {
     }
 };
 
-Seconds placing(const Workload& w) {
-    return {kPlacePoint * w.probed_points + kPlaceField * w.fields, 0};
+Seconds placing(const Workload& w, const AnalysisParams& p) {
+    return {kPlacePoint * w.probed_points + kPlaceField * w.fields,
+            p.noise > 0 ? kGrowPoint * w.probed_points : 0.0};
 }
 
 /// Poses, joint loop and closing pass (`analyze` of core).
@@ -73,7 +75,7 @@ Seconds analysis(const Workload& w, const AnalysisParams& p) {
 }
 
 Seconds denoising(const Workload& w, const DenoiseParams& p) {
-    Seconds once = placing(w);
+    Seconds once = placing(w, p.analysis);
     once += analysis(w, p.analysis);
     once.shared += kVote * w.fields * w.points_per_field;
     return p.iterations * once;
@@ -81,7 +83,7 @@ Seconds denoising(const Workload& w, const DenoiseParams& p) {
 
 Seconds method(const Workload& w, const ResolvedParameters& p) {
     if (w.task == Task::Denoise) return denoising(w, p.denoise);
-    Seconds sum = placing(w);
+    Seconds sum = placing(w, p.analysis);
     sum += analysis(w, p.analysis);
     if (w.task == Task::Analyze) return sum;
     if (p.resample.denoise) sum += denoising(w, *p.resample.denoise);
@@ -114,9 +116,9 @@ constexpr double kApartOnce = 10e6;
 constexpr double kApartPoint = 150;
 constexpr double kApartFace = 200;
 constexpr double kTreePoint = 44;
-constexpr double kGridPoint = 60;
-constexpr double kBallotPoint = 32;
-constexpr double kField = 160;
+constexpr double kGridPoint = 66;
+constexpr double kBallotPoint = 88;  // of two rounds, and the move
+constexpr double kField = 400;
 constexpr double kCandidate = 70;
 constexpr double kJobBytes = 5e6;
 constexpr double kSafety = 1.15;

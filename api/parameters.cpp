@@ -116,7 +116,7 @@ void add_target_parameters(Rows& rows, const Limits& limits) {
                     .maximum = static_cast<double>(limits.denoise_iterations),
                     .tasks = kDenoise,
                     .description = "At most; it stops earlier once the points hardly move.",
-                    .automatic = "is 1 where the noise is small against the radius, else 2"});
+                    .automatic = "is 1: one removes the noise"});
     rows.push_back({.name = "gamma",
                     .title = "Step of a point towards the consensus",
                     .exclusive_minimum = true,

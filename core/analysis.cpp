@@ -183,8 +183,7 @@ void validate(const AnalysisParams& p) {
     require(p.seed_spacing >= 0 && p.seed_spacing <= 1,
             "The spacing of the seeds must be 0 to 1 radius, so that the LPFs cover the shape.",
             "seedSpacing");
-    require(std::isfinite(p.noise) && p.noise >= 0,
-            "The noise must be 0 or more.", "noise");
+    require(std::isfinite(p.noise) && p.noise >= 0, "The noise must be 0 or more.", "noise");
     require(p.pose_iterations >= 0 && p.pose_iterations <= 50,
             "The pose iterations must be 0 to 50.", "poseIterations");
     require(p.atoms >= 1 && p.atoms <= 256, "The dictionary takes 1 to 256 atoms.", "atoms");

@@ -46,7 +46,8 @@ public:
         a.debias = true;
         a.radius = choose("radius", q_.radius, auto_radius());
         noise_ratio_ = m_.noise / a.radius;
-        // An analysis on its own is that of the paper; what moves points keeps to pieces of the shape.
+        // An analysis on its own is that of the paper; what moves points keeps to pieces of the
+        // shape.
         const bool keeps_to_pieces = !mesh_ && task_ != Task::Analyze;
         if (keeps_to_pieces) a.noise = m_.noise;
         a.adapt_radius = keeps_to_pieces && !q_.radius;

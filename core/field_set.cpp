@@ -67,13 +67,13 @@ FieldSet::FieldSet(const Shape& shape, const AnalysisParams& params, const Execu
 void FieldSet::place(const Points& targets, const AnalysisParams& params,
                      const Execution& execution) {
     Seeds seeds = place_seeds(targets, grid_,
-                         {.radius = params.radius,
-                          .spacing = params.seed_spacing,
-                          .target_radius = params.target_radius,
-                          .noise = params.noise,
-                          .adapt_radius = params.adapt_radius,
-                          .random_seed = params.random_seed},
-                         part_of(execution, 0.0, 0.5));
+                              {.radius = params.radius,
+                               .spacing = params.seed_spacing,
+                               .target_radius = params.target_radius,
+                               .noise = params.noise,
+                               .adapt_radius = params.adapt_radius,
+                               .random_seed = params.random_seed},
+                              part_of(execution, 0.0, 0.5));
     frames = std::move(seeds.frames);
     pieces = std::move(seeds.pieces);
     dimensions.assign(frames.size(), kTooFewPoints);

@@ -145,8 +145,8 @@ float support_distance(const TargetArea& target, double support, double spacing,
     return static_cast<float>(std::max({support / radius, spacing / 2 / radius, local}));
 }
 
-/// Eq. 7 for one LPF: the places of its pattern, moved by its reconstructed field, on the piece that
-/// it is about.
+/// Eq. 7 for one LPF: the places of its pattern, moved by its reconstructed field, on the piece
+/// that it is about.
 void propose(const Frame& frame, const Piece& piece, const Pattern& pattern,
              const TargetArea& target, const std::vector<float>& field,
              const std::vector<Eigen::Vector2f>& places, float support,
@@ -163,8 +163,8 @@ void propose(const Frame& frame, const Piece& piece, const Pattern& pattern,
     }
 }
 
-/// An LPF of too few points knows no field: it proposes the points themselves, so that nothing sparse
-/// is lost.
+/// An LPF of too few points knows no field: it proposes the points themselves, so that nothing
+/// sparse is lost.
 void propose_points(const Frame& frame, const TargetArea& target,
                     std::vector<Eigen::Vector3d>& proposals) {
     for (std::size_t i = 0; i < target.size; ++i) {

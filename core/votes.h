@@ -9,8 +9,8 @@
 
 namespace lpf {
 
-/// The moves that LPFs propose for every point, summed: weight, and weighted move [radius]. In fixed
-/// point, so that the order of the threads changes no digit.
+/// The moves that LPFs propose for every point, summed: weight, and weighted move [radius]. In
+/// fixed point, so that the order of the threads changes no digit.
 class Ballot {
 public:
     explicit Ballot(std::size_t points) : sums_(4 * points, 0) {}
@@ -35,7 +35,8 @@ struct VoteParams {
 /// Every LPF proposes a place for each point under its disk (paper Sec. 4.2). Departs from the
 /// paper: a vote counts by the error that the LPF's piece promises, by how many of its points lie
 /// there, and, where the noise is known, by how likely noise has moved a point so far: a second
-/// round, from where the first has put the points, decides between parts of the shape that are near.
+/// round, from where the first has put the points, decides between parts of the shape that are
+/// near.
 /// @returns the move of each point, in the order of the grid [input length]
 [[nodiscard]] std::vector<Eigen::Vector3d> vote(const FieldSet& fields,
                                                 const AnalysisResult& analysis,

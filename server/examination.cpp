@@ -124,6 +124,11 @@ Findings examine(const ShapePart& part, const ResolvedParameters& parameters,
     AnalysisParams params = parameters.analysis;
     if (params.probing == ProbingKind::NearestTriangle && !part.shape.is_mesh())
         params.probing = ProbingKind::NoiseAware;  // no face of the mesh lies within the part
+    if (parameters.resample.denoise) {
+        // Its LPFs lie on denoised points, which are not there yet: those of one radius are as many.
+        params.noise = 0;
+        params.adapt_radius = false;
+    }
     const FieldSet fields(part.shape, params, execution);
     std::vector<double> targets(fields.size());
     fields.for_each_target("place", execution,

@@ -71,8 +71,8 @@ std::array<BlockMean, kBlocks * kBlocks> block_means(const PieceSample& sample) 
         return std::clamp(static_cast<int>(share * kBlocks), 0, kBlocks - 1);
     };
     for (std::size_t i = 0; i < sample.size(); ++i) {
-        BlockMean& block = blocks[static_cast<std::size_t>(cell(sample.y[i]) * kBlocks +
-                                                           cell(sample.x[i]))];
+        BlockMean& block =
+            blocks[static_cast<std::size_t>(cell(sample.y[i]) * kBlocks + cell(sample.x[i]))];
         block.points += 1;
         block.x += sample.x[i];
         block.y += sample.y[i];

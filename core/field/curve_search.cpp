@@ -110,8 +110,7 @@ void follow_crossing_curve(PieceSample& sample, float sigmas, Piece& piece) {
     const std::vector<Eigen::Vector3f> outer = outer_points(sample, piece);
     const float width = kTubeSigmas * piece.noise;
     const Direction direction = fullest_direction(outer, width);
-    const double needed =
-        kTubeOverSheet * share_in_tube(width) * static_cast<double>(outer.size());
+    const double needed = kTubeOverSheet * share_in_tube(width) * static_cast<double>(outer.size());
     if (!piece.is_curve() && static_cast<double>(direction.points) < needed) return;
 
     Piece curve = straight_curve(direction.along, piece.noise, sigmas);

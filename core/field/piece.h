@@ -37,9 +37,9 @@ struct Piece {
     Crease crease;
     /// Two sheets: squared half of their distance over (1, x, y). One: the first value is 0.
     float sheets[3] = {};
-    float noise = 0.0F;      ///< standard deviation of the points off the shape
-    float reach = 0.0F;      ///< points further off do not belong to the piece
-    float steepness = 1.0F;  ///< distance along n for a distance across the surface
+    float noise = 0.0F;          ///< standard deviation of the points off the shape
+    float reach = 0.0F;          ///< points further off do not belong to the piece
+    float steepness = 1.0F;      ///< distance along n for a distance across the surface
     float squared_bias = 0.0F;   ///< what the piece leaves of the shape
     float squared_error = 0.0F;  ///< that, and the noise that goes into the coefficients
 
@@ -56,8 +56,8 @@ struct Piece {
     /// Half the distance of two sheets at (x, y); 0 where there is one.
     [[nodiscard]] float half_gap(float x, float y) const;
 
-    /// Squared distance of a place in the piece's axes to the mean of the nearer sheet, along n on a
-    /// surface.
+    /// Squared distance of a place in the piece's axes to the mean of the nearer sheet, along n on
+    /// a surface.
     [[nodiscard]] float squared_offset(float x, float y, float z) const;
 };
 

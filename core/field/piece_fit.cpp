@@ -76,9 +76,8 @@ std::size_t block_of(const Piece& piece, float extent, float x, float y) {
         const float share = (value / extent + 1) / 2;
         return std::clamp(static_cast<int>(share * static_cast<float>(count)), 0, count - 1);
     };
-    return static_cast<std::size_t>(piece.is_curve()
-                                        ? cell(x, kCurveBlocks)
-                                        : cell(y, kBlocks) * kBlocks + cell(x, kBlocks));
+    return static_cast<std::size_t>(
+        piece.is_curve() ? cell(x, kCurveBlocks) : cell(y, kBlocks) * kBlocks + cell(x, kBlocks));
 }
 
 double unknowns_of(const Piece& piece) {

@@ -28,8 +28,8 @@ constexpr float kGrowth = 1.4F;
 constexpr std::size_t kPointsOfBend = 24;
 
 /// A first ball that few points rather than noise make as wide may look like a curve by chance. A
-/// tube twice as thick as a curve holds less than this times its members, as a strip of a sheet does
-/// not.
+/// tube twice as thick as a curve holds less than this times its members, as a strip of a sheet
+/// does not.
 constexpr double kMostBesideCurve = 1.5;
 
 /// More points than this add nothing that a piece could tell.

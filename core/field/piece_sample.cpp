@@ -29,7 +29,8 @@ void PieceSample::assign(const TargetArea& target, std::size_t most, float first
     // A counting sort by rings keeps the order within each.
     const auto ring_of = [&](float squared) {
         std::size_t ring = 0;
-        while (ring + 1 < ball_radius_.size() && squared > ball_radius_[ring] * ball_radius_[ring]) {
+        while (ring + 1 < ball_radius_.size() &&
+               squared > ball_radius_[ring] * ball_radius_[ring]) {
             ++ring;
         }
         return ring;
@@ -40,8 +41,8 @@ void PieceSample::assign(const TargetArea& target, std::size_t most, float first
     }
     ball_end_.assign(ball_radius_.size(), 0);
     for (std::size_t i = 0, k = 0; i < target.size; i += stride, ++k) {
-        squared_offset[k] = target.x[i] * target.x[i] + target.y[i] * target.y[i] +
-                            target.z[i] * target.z[i];
+        squared_offset[k] =
+            target.x[i] * target.x[i] + target.y[i] * target.y[i] + target.z[i] * target.z[i];
         ++ball_end_[ring_of(squared_offset[k])];
     }
     std::size_t before = 0;

@@ -36,7 +36,8 @@ constexpr double kLeastShareOffCurves = 0.3;
 /// An LPF of so many points is large enough: a larger one could hardly average better.
 constexpr std::size_t kEnoughPoints = 4000;
 
-/// More bias makes a misfit [sigma], kept only where it alone takes care of this share of its points.
+/// More bias makes a misfit [sigma], kept only where it alone takes care of this share of its
+/// points.
 constexpr double kMostBias = 0.3;
 constexpr double kShareOfMisfit = 0.1;
 
@@ -69,14 +70,15 @@ struct Seed {
     Frame frame;
     Piece piece;
     bool fits = false;
-    bool is_needless = false;  ///< the shape there has its LPFs; noise alone made the point look new
+    bool is_needless =
+        false;  ///< the shape there has its LPFs; noise alone made the point look new
 };
 
 /// A size that is tried, and the smaller one that it has to be better than.
 struct Trial {
-    double radius = 0.0;        ///< [input length]
-    double smaller = 0.0;       ///< ratio of the next radius to it; 0: there is no smaller one
-    bool last_chance = false;   ///< whatever is left gets an LPF now
+    double radius = 0.0;       ///< [input length]
+    double smaller = 0.0;      ///< ratio of the next radius to it; 0: there is no smaller one
+    bool last_chance = false;  ///< whatever is left gets an LPF now
 };
 
 /// Tries one size after the other: seeds whose radius suits stay; where none does, the points are
@@ -132,9 +134,8 @@ private:
         }
         if (open.empty()) return;
         std::ranges::sort(open);
-        const Indices chosen =
-            poisson_disk_subset(select(points_, open), params_.spacing * trial.radius,
-                                params_.random_seed, execution);
+        const Indices chosen = poisson_disk_subset(
+            select(points_, open), params_.spacing * trial.radius, params_.random_seed, execution);
         std::vector<Seed> seeds(chosen.size());
         parallel_for(execution, seeds.size(), kSeedsPerChunk,
                      [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -260,7 +261,8 @@ private:
         });
     }
 
-    /// LPFs that leave much of the shape unexplained do harm where better ones care for their points.
+    /// LPFs that leave much of the shape unexplained do harm where better ones care for their
+    /// points.
     void drop_misfits(const Execution& execution) {
         std::ranges::fill(care_, kOpen);
         const double reach = std::max(kCare, params_.spacing);
@@ -279,7 +281,8 @@ private:
             gather_members(seed, reach, target);
             std::size_t open = 0;
             for (std::size_t i = 0; i < target.size; ++i) open += care_[target.index[i]] == kOpen;
-            seed.fits = static_cast<double>(open) > kShareOfMisfit * static_cast<double>(target.size);
+            seed.fits =
+                static_cast<double>(open) > kShareOfMisfit * static_cast<double>(target.size);
         });
         std::erase_if(seeds_, [](const Seed& seed) { return !seed.fits; });
     }
@@ -339,7 +342,7 @@ private:
     const Points& points_;
     const PointGrid& grid_;
     const SeedingParams& params_;
-    Indices place_;  // in the grid's order, of each point
+    Indices place_;                   // in the grid's order, of each point
     std::vector<std::uint8_t> care_;  // Care of each point, in the grid's order
     std::vector<Seed> seeds_;
 };

@@ -109,8 +109,8 @@ double spread_off_plane(const Points& points, const std::vector<SpatialIndex::Ne
     return std::sqrt(unbiased * (parted < kTwoSheets * whole ? parted : whole));
 }
 
-/// A ball cuts off what noise carries beyond it: the spread in one of radius R is too small by about
-/// this much times (spread / R)^2.
+/// A ball cuts off what noise carries beyond it: the spread in one of radius R is too small by
+/// about this much times (spread / R)^2.
 constexpr double kCutOff = 1.9;
 
 /// Edges and thin parts add to the spread, so that less than the median is noise. Of balls on a
@@ -130,8 +130,8 @@ Eigen::Vector3d mean_of(const Points& points, const std::vector<SpatialIndex::Ne
     return sum / static_cast<double>(ball.size());
 }
 
-/// The spread in the smallest ball around a place of the shape that is wide enough for it; less than
-/// 0 where none is: the point is alone, or all around it is thinner than it is rough.
+/// The spread in the smallest ball around a place of the shape that is wide enough for it; less
+/// than 0 where none is: the point is alone, or all around it is thinner than it is rough.
 double noise_around(const Points& points, const SpatialIndex& index, Eigen::Index i, double radius,
                     double largest, std::vector<SpatialIndex::Neighbour>& ball) {
     double growth = kGrowth;

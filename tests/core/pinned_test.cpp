@@ -163,11 +163,11 @@ TEST_P(PinnedQuality, OfDenoisingWithAutomaticParameters) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, PinnedQuality,
-                         testing::Values(Quality{"cube", 12000, 0.02, 0.008395, 2.343, 1392},
-                                         Quality{"curve_on_surface", 12000, 0.02, 0.003052, 1.992,
-                                                 1062},
-                                         Quality{"thin_plate", 12000, 0.008, 0.01078, 12.76, 3625},
-                                         Quality{"open_sheet", 8000, 0.05, 0.007703, 1.786, 734}),
+                         testing::Values(Quality{"cube", 12000, 0.02, 0.004, 2.343, 836},
+                                         Quality{"curve_on_surface", 12000, 0.02, 0.002114, 1.873,
+                                                 296},
+                                         Quality{"thin_plate", 12000, 0.008, 0.001147, 2.163, 874},
+                                         Quality{"open_sheet", 8000, 0.05, 0.006032, 1.402, 197}),
                          [](const auto& each) { return std::string(each.param.shape); });
 
 }  // namespace

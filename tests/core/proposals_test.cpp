@@ -121,8 +121,8 @@ TEST_F(ProposalsOf, LieCloserThanTheSpacingWhereTheNodesDoNot) {
     EXPECT_GT(2 * to_the_rim, checked);
 }
 
-/// How many places of each LPF have a target point as near as the shape is known to go on, and either
-/// one that is very near or others that do not all lie to one side.
+/// How many places of each LPF have a target point as near as the shape is known to go on, and
+/// either one that is very near or others that do not all lie to one side.
 std::vector<std::size_t> ProposalsOf::supported(const Candidates& all, double spacing,
                                                 int& near_the_limit) const {
     std::vector<std::size_t> expected(fields->size(), 0);

@@ -157,9 +157,9 @@ TEST(PieceGrower, LeavesAWireAboveAWallToItself) {
         const Grown on_wire = grow(points, {x, 0, height}, 0.12, noise);
         if (!on_wire.piece.is_curve()) continue;
         ++followed;
-        EXPECT_LT(rms_error(on_wire, [&](const Vector3d& p) {
-                      return std::hypot(p.y(), p.z() - height);
-                  }), 0.5 * noise);
+        EXPECT_LT(rms_error(on_wire,
+                            [&](const Vector3d& p) { return std::hypot(p.y(), p.z() - height); }),
+                  0.5 * noise);
     }
     EXPECT_GE(followed, 4);
     const Grown on_wall = grow(points, {0.1, 0.05, 0}, 0.12, noise);
