@@ -42,7 +42,7 @@ def events_of(client, response):
 
 
 def test_a_job_tells_its_story_to_the_end(client):
-    job = client.execute("analyze", noisy_sphere(20_000, seed=31), "?analysisIterations=30").json()
+    job = client.execute("analyze", noisy_sphere(60_000, seed=31), "?analysisIterations=60").json()
     story = list(stream(client, f"/v1/jobs/{job['jobID']}/events"))
     names = [event["event"] for event in story]
     assert names[-1] == "end" and names.count("end") == 1
