@@ -125,7 +125,7 @@ Findings examine(const ShapePart& part, const ResolvedParameters& parameters,
     if (params.probing == ProbingKind::NearestTriangle && !part.shape.is_mesh())
         params.probing = ProbingKind::NoiseAware;  // no face of the mesh lies within the part
     if (parameters.resample.denoise) {
-        // Its LPFs lie on denoised points, which are not there yet; those of one radius are as many.
+        // Its LPFs lie on denoised points, not there yet: those of one radius are as many.
         params.noise = 0;
         params.adapt_radius = false;
     }
