@@ -16,11 +16,11 @@ constexpr double kNoiseLeft = 0.25;
 double step_share(double gamma) { return gamma > 0 ? gamma / (1 + gamma) : 1.0; }
 
 /// Moves the points to their consensus. @returns the RMS of the moves
-double move_points(const std::vector<std::uint32_t>& order,
-                   const std::vector<Eigen::Vector3d>& moves, double share, Points& points) {
+double move_points(const std::vector<std::uint32_t>& order, const Moves& moves, double step,
+                   Points& points) {
     double squares = 0.0;
     for (std::size_t i = 0; i < order.size(); ++i) {
-        const Eigen::Vector3d move = share * moves[i];
+        const Eigen::Vector3d move = step * moves[i].cast<double>();
         points.col(order[i]) += move;
         squares += move.squaredNorm();
     }
@@ -62,11 +62,11 @@ DenoiseResult denoise(const Shape& shape, const DenoiseParams& params, const Exe
         fields.optimise_poses(analysis_params.pose_iterations, part_of(outer, 0.05, 0.25));
         AnalysisResult analysis = analyze(fields, analysis_params, part_of(outer, 0.25, 0.8));
 
-        const std::vector<Eigen::Vector3d> moves =
+        const Moves moves =
             vote(fields, analysis, {.sharp = params.sharp, .noise = analysis_params.noise},
                  part_of(outer, 0.8, 1.0));
-        rms_moves.push_back(move_points(fields.grid().order(), moves, step_share(params.gamma),
-                                        current.cloud.points));
+        const double step = step_share(params.gamma) * params.analysis.radius;
+        rms_moves.push_back(move_points(fields.grid().order(), moves, step, current.cloud.points));
 
         const bool still = rms_moves.back() <= params.stop_ratio * rms_moves.front();
         if (i + 1 == params.iterations || (i > 0 && still) || rms_moves.back() == 0) {

@@ -67,7 +67,7 @@ public:
     /// @param before what the round before has decided; null in the first
     /// @param width  of the likely moves [input length]; 0 = any move is likely
     Round(const FieldSet& fields, const AnalysisResult& analysis, const VoteParams& params,
-          const Ballot* before, double width)
+          const Moves* before, double width)
         : fields_(fields),
           analysis_(analysis),
           params_(params),
@@ -96,8 +96,7 @@ private:
         const Eigen::Matrix3f to_frame = fields_.frames[j].axes.transpose() / size_of(j);
         for (std::size_t i = 0; i < target.size; ++i) {
             Eigen::Vector3f p(target.x[i], target.y[i], target.z[i]);
-            p += piece.mean(p.x(), p.y()) +
-                 to_frame * before_->outcome(target.index[i]).cast<float>();
+            p += piece.mean(p.x(), p.y()) + to_frame * (*before_)[target.index[i]];
             p -= piece.mean(p.x(), p.y());
             target.x[i] = p.x();
             target.y[i] = p.y();
@@ -146,7 +145,7 @@ private:
     const FieldSet& fields_;
     const AnalysisResult& analysis_;
     const VoteParams& params_;
-    const Ballot* before_;
+    const Moves* before_;
     float width_;
     std::vector<float> reliability_;
 };
@@ -168,24 +167,21 @@ Eigen::Vector3d Ballot::outcome(std::size_t point) const {
            static_cast<double>(sums[0]);
 }
 
-std::vector<Eigen::Vector3d> vote(const FieldSet& fields, const AnalysisResult& analysis,
-                                  const VoteParams& params, const Execution& execution) {
-    const std::size_t points = fields.grid().size();
-    std::vector<Eigen::Vector3d> moves(points);
-    const auto add_outcome = [&](const Ballot& ballot) {
-        for (std::size_t i = 0; i < points; ++i) moves[i] += analysis.radius * ballot.outcome(i);
+Moves vote(const FieldSet& fields, const AnalysisResult& analysis, const VoteParams& params,
+           const Execution& execution) {
+    const auto decide = [&](const Moves* before, double width, const Execution& part) {
+        Ballot ballot(fields.grid().size());
+        Round(fields, analysis, params, before, width).run(ballot, part);
+        Moves moves(fields.grid().size());
+        for (std::size_t i = 0; i < moves.size(); ++i) {
+            moves[i] = ballot.outcome(i).cast<float>();
+            if (before) moves[i] += (*before)[i];
+        }
+        return moves;
     };
-    std::ranges::fill(moves, Eigen::Vector3d::Zero());
-    Ballot first(points);
-    Round(fields, analysis, params, nullptr, kFirstWidth * params.noise)
-        .run(first, part_of(execution, 0.0, 0.5));
-    add_outcome(first);
-    if (params.noise <= 0) return moves;
-    Ballot second(points);
-    Round(fields, analysis, params, &first, kSecondWidth * params.noise)
-        .run(second, part_of(execution, 0.5, 1.0));
-    add_outcome(second);
-    return moves;
+    const Moves first = decide(nullptr, kFirstWidth * params.noise, part_of(execution, 0.0, 0.5));
+    if (params.noise <= 0) return first;
+    return decide(&first, kSecondWidth * params.noise, part_of(execution, 0.5, 1.0));
 }
 
 }  // namespace lpf

@@ -26,6 +26,8 @@ private:
     std::vector<std::int64_t> sums_;
 };
 
+using Moves = std::vector<Eigen::Vector3f>;
+
 /// How LPFs vote.
 struct VoteParams {
     bool sharp = false;  ///< weight by the cube of the representation error alone
@@ -37,10 +39,8 @@ struct VoteParams {
 /// there, and, where the noise is known, by how likely noise has moved a point so far: a second
 /// round, from where the first has put the points, decides between parts of the shape that are
 /// near.
-/// @returns the move of each point, in the order of the grid [input length]
-[[nodiscard]] std::vector<Eigen::Vector3d> vote(const FieldSet& fields,
-                                                const AnalysisResult& analysis,
-                                                const VoteParams& params,
-                                                const Execution& execution);
+/// @returns the move of each point, in the order of the grid [radius of the analysis]
+[[nodiscard]] Moves vote(const FieldSet& fields, const AnalysisResult& analysis,
+                         const VoteParams& params, const Execution& execution);
 
 }  // namespace lpf
