@@ -146,7 +146,7 @@ private:
     }
 
     [[nodiscard]] static Choice<int> auto_denoise_iterations() {
-        return {1, "one removes the noise; more round what it leaves"};
+        return {1, "one removes the noise; a second gains little"};
     }
 
     void resolve_resample() {
