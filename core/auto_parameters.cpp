@@ -20,9 +20,6 @@ constexpr double kSigmasInRadius = 3.0;
 constexpr double kDensityShare = 0.6;
 constexpr double kLeastDensityShare = 0.4;
 
-/// Denoising leaves this share of the noise, at most, to what comes after it.
-constexpr double kNoiseLeft = 0.25;
-
 constexpr int kPatternPoints = 193;
 constexpr int kFinePatternPoints = 793;
 constexpr int kAtoms = 16;

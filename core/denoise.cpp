@@ -9,9 +9,6 @@
 namespace lpf {
 namespace {
 
-/// What an outer iteration leaves of the noise.
-constexpr double kNoiseLeft = 0.25;
-
 /// Eq. 12, with q the current position: the full step, or the share gamma / (1 + gamma) of it.
 double step_share(double gamma) { return gamma > 0 ? gamma / (1 + gamma) : 1.0; }
 

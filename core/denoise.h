@@ -6,6 +6,9 @@
 
 namespace lpf {
 
+/// Share of the noise that is left after an outer iteration, at most.
+inline constexpr double kNoiseLeft = 0.25;
+
 /// Parameters of denoising (paper Sec. 4.2).
 struct DenoiseParams {
     AnalysisParams analysis = {};

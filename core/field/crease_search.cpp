@@ -95,12 +95,14 @@ Line guess_line(const PieceSample& sample, Piece& piece) {
     for (int k = 0; k < kDirections * (2 * kOffsets + 1); ++k) {
         const Line line{k % kDirections * std::numbers::pi / kDirections,
                         (k / kDirections - kOffsets) * kOffsetStep};
+        const double normal_x = line.x();
+        const double normal_y = line.y();
         Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
         Eigen::Vector4d right = Eigen::Vector4d::Zero();
         double squares = 0;
         for (const BlockMean& b : blocks) {
             if (b.points == 0) continue;
-            const double distance = std::abs(line.x() * b.x + line.y() * b.y - line.at);
+            const double distance = std::abs(normal_x * b.x + normal_y * b.y - line.at);
             const Eigen::Vector4d row(1, b.x, b.y, distance);
             matrix += b.points * row * row.transpose();
             right += b.points * b.z * row;
@@ -136,12 +138,14 @@ std::optional<double> refine(PieceSample& sample, float sigmas, Line line, Piece
         sample.measure(piece, sample.size());
         const bool last = round + 1 == kRounds;
         const std::size_t stride = last ? 1 : 1 + sample.size() / kPointsOfRound;
+        const double normal_x = line.x();
+        const double normal_y = line.y();
         NormalEquations<9> equations;
         for (std::size_t i = 0; i < sample.size(); i += stride) {
             if (!sample.is_member(piece, i)) continue;
             const double x = sample.x[i];
             const double y = sample.y[i];
-            const double along = line.x() * y - line.y() * x;
+            const double along = normal_x * y - normal_y * x;
             const BlurredDistance blurred =
                 blur(piece.crease.signed_distance(sample.x[i], sample.y[i]), piece.noise);
             equations.add({1, x, y, x * x, x * y, y * y, blurred.distance, blurred.sign,

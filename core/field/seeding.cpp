@@ -70,8 +70,7 @@ struct Seed {
     Frame frame;
     Piece piece;
     bool fits = false;
-    bool is_needless =
-        false;  ///< the shape there has its LPFs; noise alone made the point look new
+    bool is_needless = false;  ///< the shape there has its LPFs; only noise made the point new
 };
 
 /// A size that is tried, and the smaller one that it has to be better than.
@@ -264,6 +263,7 @@ private:
     /// LPFs that leave much of the shape unexplained do harm where better ones care for their
     /// points.
     void drop_misfits(const Execution& execution) {
+        if (params_.noise <= 0) return;  // there are no pieces
         std::ranges::fill(care_, kOpen);
         const double reach = std::max(kCare, params_.spacing);
         const auto is_misfit = [&](const Seed& seed) {
