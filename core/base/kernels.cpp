@@ -1,5 +1,9 @@
 #include "core/base/kernels.h"
 
+#include <cmath>
+#include <cstring>
+#include <limits>
+
 // One binary runs on every x86-64 and uses what the machine has. Elsewhere, and under sanitizers,
 // the plain loops are compiled once.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(LPF_NO_MULTIVERSION)
@@ -10,6 +14,15 @@
 #endif
 
 namespace lpf::kernels {
+namespace {
+
+// Where a loop has choices that the compiler would make branches of. A lane is a float of any
+// vector unit: the compiler cuts these into as many registers as it takes.
+constexpr int kLanes = 16;
+typedef float Floats __attribute__((vector_size(4 * kLanes)));
+typedef int Ints __attribute__((vector_size(4 * kLanes)));
+
+}  // namespace
 
 LPF_MULTIVERSION
 float dot(const float* a, const float* b, std::size_t n) {
@@ -30,34 +43,32 @@ float squared_distance(const float* a, const float* b, std::size_t n) {
 LPF_MULTIVERSION
 void multiply_rows(const float* rows, std::size_t row_count, std::size_t n, const float* v,
                    float* out) {
-    std::size_t k = 0;
-    // Four rows at a time share the loads of v.
-    for (; k + 4 <= row_count; k += 4) {
-        const float* r0 = rows + k * n;
-        const float* r1 = r0 + n;
-        const float* r2 = r1 + n;
-        const float* r3 = r2 + n;
-        float s0 = 0.0F;
-        float s1 = 0.0F;
-        float s2 = 0.0F;
-        float s3 = 0.0F;
-#pragma omp simd reduction(+ : s0, s1, s2, s3)
-        for (std::size_t i = 0; i < n; ++i) {
-            s0 += r0[i] * v[i];
-            s1 += r1[i] * v[i];
-            s2 += r2[i] * v[i];
-            s3 += r3[i] * v[i];
+    // Eight rows at a time share the loads of v, and are sums enough to keep the adders busy.
+    constexpr std::size_t kRows = 8;
+    const std::size_t whole = n - n % kLanes;
+    for (std::size_t first = 0; first < row_count; first += kRows) {
+        const std::size_t count = row_count - first < kRows ? row_count - first : kRows;
+        const float* row[kRows];
+        for (std::size_t k = 0; k < kRows; ++k) row[k] = rows + (first + k % count) * n;
+        Floats s0{}, s1{}, s2{}, s3{}, s4{}, s5{}, s6{}, s7{};
+        for (std::size_t i = 0; i < whole; i += kLanes) {
+            Floats with;
+            Floats from[kRows];
+            std::memcpy(&with, v + i, sizeof with);
+            for (std::size_t k = 0; k < kRows; ++k) std::memcpy(&from[k], row[k] + i, sizeof with);
+            s0 += from[0] * with, s1 += from[1] * with, s2 += from[2] * with, s3 += from[3] * with;
+            s4 += from[4] * with, s5 += from[5] * with, s6 += from[6] * with, s7 += from[7] * with;
         }
-        out[k] = s0;
-        out[k + 1] = s1;
-        out[k + 2] = s2;
-        out[k + 3] = s3;
-    }
-    for (; k < row_count; ++k) {
-        float sum = 0.0F;
+        const Floats sums[kRows] = {s0, s1, s2, s3, s4, s5, s6, s7};
+        for (std::size_t k = 0; k < count; ++k) {
+            float lanes[kLanes];
+            std::memcpy(lanes, &sums[k], sizeof lanes);
+            float sum = 0.0F;
 #pragma omp simd reduction(+ : sum)
-        for (std::size_t i = 0; i < n; ++i) sum += rows[k * n + i] * v[i];
-        out[k] = sum;
+            for (int lane = 0; lane < kLanes; ++lane) sum += lanes[lane];
+            for (std::size_t i = whole; i < n; ++i) sum += row[k][i] * v[i];
+            out[first + k] = sum;
+        }
     }
 }
 
@@ -65,6 +76,95 @@ LPF_MULTIVERSION
 void add_scaled(float scale, const float* in, float* out, std::size_t n) {
 #pragma omp simd
     for (std::size_t i = 0; i < n; ++i) out[i] += scale * in[i];
+}
+
+LPF_MULTIVERSION
+void combine_rows(const float* rows, std::size_t n, const unsigned* row, const float* coefficient,
+                  std::size_t count, float* out) {
+    // A block of outputs stays in registers while all rows pass over it.
+    constexpr std::size_t kVectors = 4;
+    constexpr std::size_t kBlock = kVectors * kLanes;
+    std::size_t begin = 0;
+    for (; begin + kBlock <= n; begin += kBlock) {
+        Floats s0{}, s1{}, s2{}, s3{};
+        for (std::size_t k = 0; k < count; ++k) {
+            Floats from[kVectors];
+            std::memcpy(from, rows + row[k] * n + begin, sizeof from);
+            s0 += coefficient[k] * from[0];
+            s1 += coefficient[k] * from[1];
+            s2 += coefficient[k] * from[2];
+            s3 += coefficient[k] * from[3];
+        }
+        const Floats sums[kVectors] = {s0, s1, s2, s3};
+        std::memcpy(out + begin, sums, sizeof sums);
+    }
+    for (; begin + kLanes <= n; begin += kLanes) {
+        Floats sum{};
+        for (std::size_t k = 0; k < count; ++k) {
+            Floats from;
+            std::memcpy(&from, rows + row[k] * n + begin, sizeof from);
+            sum += coefficient[k] * from;
+        }
+        std::memcpy(out + begin, &sum, sizeof sum);
+    }
+    for (; begin < n; ++begin) {
+        float sum = 0;
+        for (std::size_t k = 0; k < count; ++k) sum += coefficient[k] * rows[row[k] * n + begin];
+        out[begin] = sum;
+    }
+}
+
+LPF_MULTIVERSION
+void solve_definite(double* a, std::size_t n, double* b) {
+    constexpr double kDependent = 1e-6;  // share of its diagonal under which a pivot is rounding
+    const std::size_t stride = padded_row(n);
+    double* const inverse = a + n * stride;
+    for (std::size_t k = 0; k < n; ++k) inverse[k] = kDependent * a[k * stride + k];
+    for (std::size_t k = 0; k < n; ++k) {
+        const double* const pivots = a + k * stride;
+        inverse[k] = pivots[k] > inverse[k] ? 1 / pivots[k] : 0;
+        for (std::size_t i = k + 1; i < n; ++i) {
+            const double factor = pivots[i] * inverse[k];
+            double* const row = a + i * stride;
+            b[i] -= factor * b[k];
+            // What lies left of the diagonal is changed, too, and never read.
+            for (std::size_t begin = i / kRowBlock * kRowBlock; begin < n; begin += kRowBlock) {
+#pragma omp simd
+                for (std::size_t j = 0; j < kRowBlock; ++j) {
+                    row[begin + j] -= factor * pivots[begin + j];
+                }
+            }
+        }
+    }
+    for (std::size_t k = n; k-- > 0;) {
+        double sum = 0;
+        const double* const row = a + k * stride;
+#pragma omp simd reduction(+ : sum)
+        for (std::size_t j = k + 1; j < n; ++j) sum += row[j] * b[j];
+        b[k] = (b[k] - sum) * inverse[k];
+    }
+}
+
+LPF_MULTIVERSION
+float descent_sweep(const float* gram, std::size_t d, float threshold,
+                    const float* inverse_diagonal, const unsigned* atoms, std::size_t count,
+                    float* code, float* residual) {
+    float largest = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t k = atoms[i];
+        const float old = code[k];
+        const float* row = gram + k * d;
+        const float pull = residual[k] + row[k] * old;
+        const float excess = std::abs(pull) - threshold;
+        const float magnitude = excess > 0 ? excess * inverse_diagonal[k] : 0;
+        const float move = std::copysign(magnitude, pull) - old;
+        if (move == 0) continue;
+        code[k] = old + move;
+#pragma omp simd
+        for (std::size_t j = 0; j < d; ++j) residual[j] -= move * row[j];
+        largest = std::abs(move) > largest ? std::abs(move) : largest;
+    }
+    return largest;
 }
 
 LPF_MULTIVERSION
@@ -86,6 +186,23 @@ PairMoments pair_moments(const float* u, const float* v, const float* w, std::si
         zx += pz * qx, zy += pz * qy, zz += pz * qz;
     }
     return {{ax, ay, az}, {bx, by, bz}, {xx, xy, xz, yx, yy, yz, zx, zy, zz}};
+}
+
+LPF_MULTIVERSION
+void move_points(const float* rotation, const float* translation, const float* u, std::size_t n,
+                 float* v) {
+    const float r0 = rotation[0], r1 = rotation[1], r2 = rotation[2];
+    const float r3 = rotation[3], r4 = rotation[4], r5 = rotation[5];
+    const float r6 = rotation[6], r7 = rotation[7], r8 = rotation[8];
+    const float tx = translation[0], ty = translation[1], tz = translation[2];
+#pragma omp simd
+    for (std::size_t i = 0; i < n; ++i) {
+        const float ux = u[i], uy = u[n + i], uz = u[2 * n + i];
+        const float px = ux + v[i], py = uy + v[n + i], pz = uz + v[2 * n + i];
+        v[i] = r0 * px + r1 * py + r2 * pz + tx - ux;
+        v[n + i] = r3 * px + r4 * py + r5 * pz + ty - uy;
+        v[2 * n + i] = r6 * px + r7 * py + r8 * pz + tz - uz;
+    }
 }
 
 LPF_MULTIVERSION
@@ -189,6 +306,25 @@ void convolve(const float* in, float* out, std::size_t n, int stride, const floa
         }
         for (std::size_t i = 0; i < size; ++i) out[begin + i] = sums[i];
     }
+}
+
+LPF_MULTIVERSION
+void nearest_to_nodes(const float* x, const float* y, std::size_t n, float first_x, float step,
+                      float row_y, float squared[16], int point[16]) {
+    Floats node;
+    for (int k = 0; k < kLanes; ++k) node[k] = first_x + step * static_cast<float>(k);
+    Floats nearest = std::numeric_limits<float>::infinity() - Floats{};
+    Ints who = Ints{};
+    for (std::size_t i = 0; i < n; ++i) {
+        const Floats dx = x[i] - node;
+        const float dy = y[i] - row_y;
+        const Floats d = dx * dx + dy * dy;
+        const Ints is_nearer = d < nearest;
+        who = is_nearer ? static_cast<int>(i) - Ints{} : who;
+        nearest = is_nearer ? d : nearest;
+    }
+    std::memcpy(squared, &nearest, sizeof nearest);
+    std::memcpy(point, &who, sizeof who);
 }
 
 LPF_MULTIVERSION

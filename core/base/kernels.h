@@ -19,6 +19,31 @@ void multiply_rows(const float* rows, std::size_t row_count, std::size_t n, cons
 /// out[i] += scale * in[i].
 void add_scaled(float scale, const float* in, float* out, std::size_t n);
 
+/// out = sum of coefficient[i] times row[i], i < count; rows of n floats each, by their numbers.
+void combine_rows(const float* rows, std::size_t n, const unsigned* row, const float* coefficient,
+                  std::size_t count, float* out);
+
+inline constexpr std::size_t kRowBlock = 8;
+
+/// Columns that a row of n doubles takes in solve_definite.
+[[nodiscard]] constexpr std::size_t padded_row(std::size_t n) {
+    return (n + kRowBlock - 1) / kRowBlock * kRowBlock;
+}
+
+/// Solves the symmetric positive definite A x = b, in place of b. Unknowns that depend linearly on
+/// those before them become 0.
+/// @param a n rows of padded_row(n) values, of which those from the diagonal on are read, and one
+/// more row to work in; destroyed
+void solve_definite(double* a, std::size_t n, double* b);
+
+/// One sweep of coordinate descent on |V - D a|^2 + 2 threshold |a|_1 over the atoms listed.
+/// @param gram of D, d x d  @param inverse_diagonal of gram, 0 for an atom of norm 0
+/// @param code, residual d coefficients a and d correlations D'(V - D a), in and out
+/// @returns the largest move of a coefficient
+float descent_sweep(const float* gram, std::size_t d, float threshold,
+                    const float* inverse_diagonal, const unsigned* atoms, std::size_t count,
+                    float* code, float* residual);
+
 /// Raw moments of two point sets a = u + v and b = u + w, each three channels of n floats.
 struct PairMoments {
     float a[3];   ///< sum a
@@ -26,6 +51,10 @@ struct PairMoments {
     float ab[9];  ///< sum a b', row-major
 };
 PairMoments pair_moments(const float* u, const float* v, const float* w, std::size_t n);
+
+/// Moves the points p = u + v by R p + t, in place of v; all three channels of n floats.
+void move_points(const float* rotation, const float* translation, const float* u, std::size_t n,
+                 float* v);
 
 /// (x, y, z) <- axes' ((x, y, z) - origin), in place; axes row-major 3 x 3 (columns t1, t2, n).
 void to_frame(const float* axes, const float* origin, float* x, float* y, float* z, std::size_t n);
@@ -51,6 +80,12 @@ void offsets_from_cubics(const float c[8], const float* x, const float* y, const
 /// out[i] = sum over k in [-reach, reach] of taps[k] in[i + k stride], for i in [0, n).
 /// @param taps points at the middle of 2 reach + 1 values
 void convolve(const float* in, float* out, std::size_t n, int stride, const float* taps, int reach);
+
+/// Which of the points is nearest to each of 16 nodes at (first_x + k step, row_y), k < 16.
+/// @param squared, point out: squared distance, infinite where there are no points, and whose it is;
+/// of equally near ones the first
+void nearest_to_nodes(const float* x, const float* y, std::size_t n, float first_x, float step,
+                      float row_y, float squared[16], int point[16]);
 
 /// Appends to the outputs the points of a run that lie within `limit` of the centre.
 /// dx = float((x[i] - centre[0]) * scale) and so on; kept when dx^2 + dy^2 + dz^2 <= limit^2.

@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include "core/base/kernels.h"
 #include "core/field/probing.h"
 
 namespace lpf {
@@ -114,6 +116,138 @@ private:
     float inverse_cell_ = 1.0F;
 };
 
+/// Target points sorted by the row of a grid pattern's nodes that they lie nearest to.
+class PointRows {
+public:
+    PointRows(const TargetArea& target, float step, int half, ProbeScratch& scratch)
+        : first_(scratch.cells), x_(scratch.raster), y_(scratch.raster2), order_(scratch.cells2) {
+        const int rows = 2 * half + 1;
+        const auto limit = static_cast<float>(half);
+        const auto row_of = [&](float y) {
+            return static_cast<std::size_t>(std::clamp(y / step, -limit, limit) + limit + 0.5F);
+        };
+        first_.assign(static_cast<std::size_t>(rows) + 1, 0);
+        for (std::size_t i = 0; i < target.size; ++i) ++first_[row_of(target.y[i]) + 1];
+        for (int r = 0; r < rows; ++r) {
+            first_[static_cast<std::size_t>(r) + 1] += first_[static_cast<std::size_t>(r)];
+        }
+        x_.resize(target.size);
+        y_.resize(target.size);
+        order_.resize(target.size);
+        for (std::size_t i = 0; i < target.size; ++i) {
+            const auto at = static_cast<std::size_t>(first_[row_of(target.y[i])]++);
+            x_[at] = target.x[i];
+            y_[at] = target.y[i];
+            order_[at] = static_cast<int>(i);
+        }
+        // Each row has moved to the start of the next.
+        std::copy_backward(first_.begin(), first_.end() - 1, first_.end());
+        first_.front() = 0;
+    }
+
+    [[nodiscard]] int begin_of(int row) const { return first_[static_cast<std::size_t>(row)]; }
+    [[nodiscard]] const float* x(int from) const { return x_.data() + from; }
+    [[nodiscard]] const float* y(int from) const { return y_.data() + from; }
+    [[nodiscard]] std::size_t target(int i) const {
+        return static_cast<std::size_t>(order_[static_cast<std::size_t>(i)]);
+    }
+
+private:
+    std::vector<int>& first_;
+    std::vector<float>& x_;
+    std::vector<float>& y_;
+    std::vector<int>& order_;
+};
+
+/// On a grid: 16 nodes of a row at a time look at the points in the rows about them.
+class GridProbing final : public ProbingOperator {
+public:
+    explicit GridProbing(const Pattern& pattern)
+        : pattern_(pattern), half_(pattern.grid_size() / 2) {
+        for (int i = 0; i < pattern.size();) {
+            Run run{.first_node = i, .row = row_of(i), .nodes = 0};
+            while (i < pattern.size() && run.nodes < kLanes && row_of(i) == run.row) {
+                ++run.nodes;
+                ++i;
+            }
+            runs_.push_back(run);
+        }
+    }
+
+    void probe(const Frame&, bool, ProbeScratch& scratch, float* v) const override {
+        std::fill_n(v, 3 * pattern_.padded_size(), 0.0F);
+        const TargetArea& target = scratch.target;
+        if (target.size == 0) return;
+        const PointRows rows(target, pattern_.step(), half_, scratch);
+        const int reach = reach_for(target);
+        Nearest nearest;
+        for (const Run& run : runs_) {
+            const int low = std::max(run.row - reach, 0);
+            const int high = std::min(run.row + reach, 2 * half_);
+            look(run, rows, rows.begin_of(low), rows.begin_of(high + 1), nearest);
+            int begin = rows.begin_of(low);
+            if (!is_sure(run, nearest, reach)) {
+                begin = 0;
+                look(run, rows, 0, static_cast<int>(target.size), nearest);
+            }
+            for (int k = 0; k < run.nodes; ++k) {
+                set_displacement(pattern_, target, run.first_node + k,
+                                 rows.target(begin + nearest.point[k]), v);
+            }
+        }
+    }
+
+private:
+    static constexpr int kLanes = 16;
+    /// So many points within the reach of a node make it unlikely that none is.
+    static constexpr float kPointsInReach = 12.0F;
+
+    /// Nodes one beside the other.
+    struct Run {
+        int first_node;
+        int row;
+        int nodes;
+    };
+    struct Nearest {
+        float squared[kLanes];
+        int point[kLanes];
+    };
+
+    [[nodiscard]] int row_of(int node) const {
+        const long row = std::lround(pattern_.channel(1)[node] / pattern_.step());
+        return static_cast<int>(row) + half_;
+    }
+
+    /// Rows to either side that are looked at first.
+    [[nodiscard]] int reach_for(const TargetArea& target) const {
+        constexpr float kPi = std::numbers::pi_v<float>;
+        const float points_of_node =
+            static_cast<float>(target.size) * pattern_.step() * pattern_.step() / kPi;
+        const float reach = std::sqrt(kPointsInReach / (kPi * points_of_node)) - 0.5F;
+        return std::clamp(static_cast<int>(std::ceil(reach)), 1, half_);
+    }
+
+    void look(const Run& run, const PointRows& rows, int begin, int end, Nearest& nearest) const {
+        kernels::nearest_to_nodes(rows.x(begin), rows.y(begin),
+                                  static_cast<std::size_t>(end - begin),
+                                  pattern_.channel(0)[run.first_node], pattern_.step(),
+                                  pattern_.channel(1)[run.first_node], nearest.squared,
+                                  nearest.point);
+    }
+
+    /// Points beyond the reach are farther away than what was found.
+    [[nodiscard]] bool is_sure(const Run& run, const Nearest& nearest, int reach) const {
+        const float sure = pattern_.step() * (static_cast<float>(reach) + 0.49F);
+        return std::all_of(nearest.squared, nearest.squared + run.nodes,
+                           [&](float squared) { return squared <= sure * sure; });
+    }
+
+    Pattern pattern_;
+    int half_;
+    std::vector<Run> runs_;
+};
+
+/// On any pattern: each node looks around itself.
 class OrthogonalProbing final : public ProbingOperator {
 public:
     explicit OrthogonalProbing(const Pattern& pattern) : pattern_(pattern) {}
@@ -162,6 +296,7 @@ private:
 }  // namespace
 
 std::unique_ptr<ProbingOperator> make_orthogonal_probing(const Pattern& pattern) {
+    if (pattern.grid_size() > 0) return std::make_unique<GridProbing>(pattern);
     return std::make_unique<OrthogonalProbing>(pattern);
 }
 

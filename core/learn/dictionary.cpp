@@ -1,10 +1,12 @@
 #include "core/learn/dictionary.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "core/base/kernels.h"
+#include "core/learn/lasso.h"
 
 namespace lpf {
 
@@ -23,13 +25,15 @@ std::span<const float> Dictionary::atom(int k) const {
 }
 
 void Dictionary::decode(std::span<const float> code, std::span<float> out) const {
-    std::fill(out.begin(), out.end(), 0.0F);
-    for (int k = 0; k < atoms_; ++k) {
-        const float coefficient = code[static_cast<std::size_t>(k)];
-        if (coefficient != 0.0F) {
-            kernels::add_scaled(coefficient, atom(k).data(), out.data(), stride_);
-        }
+    std::array<unsigned, kMaxAtoms> used;
+    std::array<float, kMaxAtoms> coefficient;
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < code.size(); ++k) {
+        if (code[k] == 0.0F) continue;
+        used[count] = static_cast<unsigned>(k);
+        coefficient[count++] = code[k];
     }
+    kernels::combine_rows(data(), stride_, used.data(), coefficient.data(), count, out.data());
 }
 
 std::vector<float> Dictionary::gram() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 #include "core/base/kernels.h"
 #include "core/learn/packed_cholesky.h"
@@ -14,6 +15,7 @@ namespace {
 /// atom costs O(1) unless its coefficient moves.
 struct Descent {
     const float* gram;
+    const float* correlations;
     std::size_t d;
     float threshold;  // lambda / 2, as Eq. 3 has no factor 1/2
     float* code;
@@ -21,104 +23,96 @@ struct Descent {
     std::array<float, kMaxAtoms> inverse_diagonal;  // 0 for an atom of norm 0
 };
 
-void start(Descent& descent, const LassoProblem& problem) {
-    for (std::size_t k = 0; k < descent.d; ++k) {
-        const float diagonal = descent.gram[k * descent.d + k];
-        descent.inverse_diagonal[k] = diagonal > 0 ? 1 / diagonal : 0;
-        descent.residual[k] = problem.correlations[k];
-        if (!(diagonal > 0)) descent.code[k] = 0;
-    }
-    for (std::size_t k = 0; k < descent.d; ++k) {
-        if (descent.code[k] == 0) continue;
-        kernels::add_scaled(-descent.code[k], descent.gram + k * descent.d, descent.residual.data(),
-                            descent.d);
-    }
-}
-
-/// Minimises over one coefficient. @returns how far it moved
-inline float visit(Descent& descent, std::size_t k) {
-    const float old = descent.code[k];
-    const float* row = descent.gram + k * descent.d;
-    const float pull = descent.residual[k] + row[k] * old;
-    const float excess = std::abs(pull) - descent.threshold;
-    const float magnitude = excess > 0 ? excess * descent.inverse_diagonal[k] : 0;
-    const float move = std::copysign(magnitude, pull) - old;
-    if (move == 0) return 0;
-    descent.code[k] = old + move;
-    kernels::add_scaled(-move, row, descent.residual.data(), descent.d);
-    return std::abs(move);
-}
-
-/// Non-zero atoms, in ascending order.
+/// Some of the atoms, in ascending order.
 struct ActiveSet {
-    std::array<std::size_t, kMaxAtoms> atom;
+    std::array<unsigned, kMaxAtoms> atom;
     std::size_t count = 0;
 };
 
-/// One sweep over all atoms. @returns the largest move; `active` receives the non-zero atoms
-float sweep_all(Descent& descent, ActiveSet& active) {
-    float largest = 0;
-    active.count = 0;
-    for (std::size_t k = 0; k < descent.d; ++k) {
-        largest = std::max(largest, visit(descent, k));
-        if (descent.code[k] != 0) active.atom[active.count++] = k;
-    }
-    return largest;
+/// @returns the largest move
+float sweep(Descent& descent, const ActiveSet& atoms) {
+    return kernels::descent_sweep(descent.gram, descent.d, descent.threshold,
+                                  descent.inverse_diagonal.data(), atoms.atom.data(), atoms.count,
+                                  descent.code, descent.residual.data());
 }
 
-float sweep_active(Descent& descent, const ActiveSet& active) {
-    float largest = 0;
-    for (std::size_t i = 0; i < active.count; ++i) {
-        largest = std::max(largest, visit(descent, active.atom[i]));
+void find_non_zero(const Descent& descent, ActiveSet& active) {
+    active.count = 0;
+    for (std::size_t k = 0; k < descent.d; ++k) {
+        if (descent.code[k] != 0) active.atom[active.count++] = static_cast<unsigned>(k);
     }
-    return largest;
+}
+
+/// The residual correlations of the code as it is.
+void correlate(Descent& descent) {
+    ActiveSet active;
+    find_non_zero(descent, active);
+    std::array<float, kMaxAtoms> coefficient;
+    for (std::size_t i = 0; i < active.count; ++i) coefficient[i] = descent.code[active.atom[i]];
+    kernels::combine_rows(descent.gram, descent.d, active.atom.data(), coefficient.data(),
+                          active.count, descent.residual.data());
+    for (std::size_t k = 0; k < descent.d; ++k) {
+        descent.residual[k] = descent.correlations[k] - descent.residual[k];
+    }
+}
+
+void start(Descent& descent) {
+    for (std::size_t k = 0; k < descent.d; ++k) {
+        const float diagonal = descent.gram[k * descent.d + k];
+        descent.inverse_diagonal[k] = diagonal > 0 ? 1 / diagonal : 0;
+        if (!(diagonal > 0)) descent.code[k] = 0;
+    }
+    correlate(descent);
 }
 
 /// Where correlated atoms make the sweeps crawl: with the signs held, Eq. 3 is a quadratic, so walk
-/// straight to its minimum, or to the first coefficient that reaches zero on the way.
-void jump_to_minimum(Descent& descent, const ActiveSet& active) {
-    PackedCholesky<kMaxAtoms> factor;
+/// straight to its minimum, or to the first coefficient that reaches zero on the way. Atoms that
+/// depend linearly on those before them stay where they are.
+void jump_to_minimum(Descent& descent, ActiveSet& active) {
+    find_non_zero(descent, active);
+    const std::size_t n = active.count;
+    const std::size_t stride = kernels::padded_row(n);
+    std::array<double, (kMaxAtoms + 1) * kMaxAtoms> matrix;  // only what is used is touched
     std::array<double, kMaxAtoms> step;
-    ActiveSet free;  // those that do not depend linearly on the ones before
-    for (std::size_t i = 0; i < active.count; ++i) {
-        const std::size_t k = active.atom[i];
-        if (descent.code[k] == 0) continue;
+    for (std::size_t i = 0; i < n; ++i) {
+        const unsigned k = active.atom[i];
         const float* row = descent.gram + k * descent.d;
-        for (std::size_t j = 0; j < free.count; ++j) step[j] = row[free.atom[j]];
-        if (factor.append(step.data(), row[k])) free.atom[free.count++] = k;
-    }
-    for (std::size_t i = 0; i < free.count; ++i) {
-        const std::size_t k = free.atom[i];
+        double* to = matrix.data() + i * stride;
+        for (std::size_t j = 0; j < n; ++j) to[j] = row[active.atom[j]];
+        std::fill(to + n, to + stride, 0.0);
         step[i] = descent.residual[k] - std::copysign(descent.threshold, descent.code[k]);
     }
-    factor.solve(step.data());
+    kernels::solve_definite(matrix.data(), n, step.data());
     double length = 1;
     std::size_t crossing = kMaxAtoms;
-    for (std::size_t i = 0; i < free.count; ++i) {
-        const double reach = -descent.code[free.atom[i]] / step[i];
+    for (std::size_t i = 0; i < n; ++i) {
+        const double reach = -descent.code[active.atom[i]] / step[i];
         if (reach > 0 && reach < length) length = reach, crossing = i;
     }
-    for (std::size_t i = 0; i < free.count; ++i) {
-        const std::size_t k = free.atom[i];
-        const float old = descent.code[k];
-        descent.code[k] = i == crossing ? 0 : old + static_cast<float>(length * step[i]);
-        kernels::add_scaled(old - descent.code[k], descent.gram + k * descent.d,
-                            descent.residual.data(), descent.d);
+    for (std::size_t i = 0; i < n; ++i) {
+        float& coefficient = descent.code[active.atom[i]];
+        coefficient =
+            i == crossing ? 0.0F : coefficient + static_cast<float>(length * step[i]);
     }
+    correlate(descent);
 }
 
 /// Sweeps over all atoms, each followed by a few over the non-zero ones.
 int descend(Descent& descent, float tolerance, int max_sweeps) {
-    constexpr int kActiveSweeps = 4;
+    constexpr int kActiveSweeps = 1;
+    ActiveSet all;
+    std::iota(all.atom.begin(), all.atom.begin() + descent.d, 0U);
+    all.count = descent.d;
     ActiveSet active;
     int sweeps = 0;
     while (sweeps < max_sweeps) {
         ++sweeps;
-        float largest = sweep_all(descent, active);
+        float largest = sweep(descent, all);
         if (largest <= tolerance) break;
+        find_non_zero(descent, active);
         for (int i = 0; i < kActiveSweeps && largest > tolerance && sweeps < max_sweeps; ++i) {
             ++sweeps;
-            largest = sweep_active(descent, active);
+            largest = sweep(descent, active);
         }
         if (largest > tolerance) jump_to_minimum(descent, active);
     }
@@ -131,10 +125,11 @@ int solve_coordinate_descent(const LassoProblem& problem, std::span<float> code,
                              int max_sweeps) {
     Descent descent;  // large, and set by start()
     descent.gram = problem.gram.data();
+    descent.correlations = problem.correlations.data();
     descent.d = code.size();
     descent.threshold = problem.lambda / 2;
     descent.code = code.data();
-    start(descent, problem);
+    start(descent);
     return descend(descent, tolerance, max_sweeps);
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/kernels.h"
@@ -104,12 +105,11 @@ void apply_pose(const RigidFit& fit, Frame& frame) {
 }
 
 void move_field(const Pattern& pattern, const RigidFit& fit, float* v) {
-    const int stride = pattern.padded_size();
-    for (int i = 0; i < pattern.size(); ++i) {
-        const Eigen::Vector3f u = pattern.point(i);
-        const Eigen::Vector3f p = u + Eigen::Vector3f(v[i], v[stride + i], v[2 * stride + i]);
-        const Eigen::Vector3f moved = fit.rotation * p + fit.translation - u;
-        for (int c = 0; c < 3; ++c) v[c * stride + i] = moved[c];
+    const auto stride = static_cast<std::size_t>(pattern.padded_size());
+    const Eigen::Matrix<float, 3, 3, Eigen::RowMajor> rotation = fit.rotation;
+    kernels::move_points(rotation.data(), fit.translation.data(), pattern.channel(0), stride, v);
+    for (std::size_t c = 0; c < 3; ++c) {
+        std::fill(v + c * stride + pattern.size(), v + (c + 1) * stride, 0.0F);
     }
 }
 
