@@ -33,7 +33,7 @@ public:
 private:
     void gather(const Eigen::Vector3d& at) {
         around_.centre = at;
-        grid_.gather(around_, 1.0F, found_);
+        grid_.gather(around_.centre, around_.radius, 1.0F, found_);
     }
 
     PointGrid grid_;

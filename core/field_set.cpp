@@ -88,7 +88,7 @@ void FieldSet::place(const Points& targets, const AnalysisParams& params,
                              frames[j].axes = pieces[j].axes;
                              continue;
                          }
-                         grid_.gather(frames[j], target_radius_, target);
+                         grid_.gather(frames[j].centre, frames[j].radius, target_radius_, target);
                          const PrincipalDirections principal = principal_directions(target);
                          dimensions[j] = local_dimension(principal, target.size);
                          if (params.principal_frames) {
@@ -117,7 +117,7 @@ void FieldSet::gather(std::size_t j, TargetArea& target) const {
 }
 
 void FieldSet::gather_ball(std::size_t j, TargetArea& target) const {
-    grid_.gather(frames[j], target_radius_, target);
+    grid_.gather(frames[j].centre, frames[j].radius, target_radius_, target);
     target.to_frame(frames[j]);
     flatten(pieces[j], target);
 }

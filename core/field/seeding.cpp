@@ -57,14 +57,6 @@ using Indices = std::vector<std::uint32_t>;
 /// What has been done for a point: later values count for more.
 enum Care : std::uint8_t { kOpen = 0, kTried = 1, kOnSurface = 2, kOnCurve = 3 };
 
-Points select(const Points& points, const Indices& indices) {
-    Points selected(3, static_cast<Eigen::Index>(indices.size()));
-    for (std::size_t i = 0; i < indices.size(); ++i) {
-        selected.col(static_cast<Eigen::Index>(i)) = points.col(indices[i]);
-    }
-    return selected;
-}
-
 struct Seed {
     std::uint32_t point = 0;
     Frame frame;
@@ -88,12 +80,8 @@ public:
         : points_(points),
           grid_(grid),
           params_(params),
-          place_(grid.size()),
-          care_(grid.size(), kOpen) {
-        for (std::size_t i = 0; i < place_.size(); ++i) {
-            place_[grid_.order()[i]] = static_cast<std::uint32_t>(i);
-        }
-    }
+          place_(grid.places()),
+          care_(grid.size(), kOpen) {}
 
     Seeds run(const Execution& execution) {
         const std::vector<double> radii = radii_to_try();
@@ -127,21 +115,19 @@ private:
     void reopen_tried() { std::replace(care_.begin(), care_.end(), kTried, kOpen); }
 
     void place(const Trial& trial, const Execution& execution) {
-        Indices open;
-        for (std::size_t i = 0; i < care_.size(); ++i) {
-            if (care_[i] == kOpen) open.push_back(grid_.order()[i]);
-        }
+        Indices open;  // places, in the order of the input
+        std::ranges::copy_if(place_, std::back_inserter(open),
+                             [&](std::uint32_t place) { return care_[place] == kOpen; });
         if (open.empty()) return;
-        std::ranges::sort(open);
-        const Indices chosen = poisson_disk_subset(
-            select(points_, open), params_.spacing * trial.radius, params_.random_seed, execution);
+        const Indices chosen = poisson_disk_subset(grid_, open, params_.spacing * trial.radius,
+                                                   params_.random_seed, execution);
         std::vector<Seed> seeds(chosen.size());
         parallel_for(execution, seeds.size(), kSeedsPerChunk,
                      [&](std::size_t begin, std::size_t end, std::size_t) {
                          TargetArea target;
                          PieceGrower grower;
                          for (std::size_t i = begin; i < end; ++i) {
-                             seeds[i] = examine(open[chosen[i]], trial, target, grower);
+                             seeds[i] = examine(grid_.order()[open[chosen[i]]], trial, target, grower);
                          }
                      });
         // Curves first: a sheet that is laid across curves is left with none of their points.
@@ -193,7 +179,7 @@ private:
     }
 
     void gather(const Frame& frame, TargetArea& target) const {
-        grid_.gather(frame, static_cast<float>(params_.target_radius), target);
+        grid_.gather(frame.centre, frame.radius, static_cast<float>(params_.target_radius), target);
     }
 
     [[nodiscard]] Piece grow(const Frame& frame, TargetArea& target, PieceGrower& grower) const {
@@ -208,7 +194,7 @@ private:
         if (params_.noise <= 0) return;
         Frame ball = frame;
         ball.radius = params_.noise;
-        grid_.gather(ball, kShiftReach, target);
+        grid_.gather(ball.centre, ball.radius, kShiftReach, target);
         Eigen::Vector3d at = Eigen::Vector3d::Zero();
         for (int step = 0; step < kShifts; ++step) {
             Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -231,7 +217,7 @@ private:
         Frame ball;
         ball.centre = place;
         ball.radius = params_.noise;
-        grid_.gather(ball, kCaredWithin, target);
+        grid_.gather(ball.centre, ball.radius, kCaredWithin, target);
         std::size_t cared = 0;
         for (std::size_t i = 0; i < target.size; ++i) cared += care_[target.index[i]] > kTried;
         return static_cast<double>(cared) > kCaredShare * static_cast<double>(target.size);
@@ -297,7 +283,7 @@ private:
     }
 
     void gather_members(const Seed& seed, double reach, TargetArea& target) const {
-        grid_.gather(seed.frame, static_cast<float>(reach), target);
+        grid_.gather(seed.frame.centre, seed.frame.radius, static_cast<float>(reach), target);
         if (!seed.piece.exists()) return;
         Frame frame = seed.frame;
         frame.origin = seed.piece.origin;

@@ -8,7 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/base/random.h"
-#include "core/shape/spatial_index.h"
+#include "core/shape/point_grid.h"
 
 namespace lpf {
 namespace {
@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t kSpacingSample = 4096;
 constexpr std::size_t kNoiseSample = 400;
 constexpr std::size_t kPointsInBall = 150;
+constexpr double kPointsInCell = 40;  // of the grid that they are looked for in, at most
 constexpr std::size_t kFewestForPlane = 8;
 
 /// Points of the first ball that the noise is looked for in.
@@ -81,16 +82,15 @@ double variance_of_two(const std::vector<double>& heights) {
 }
 
 /// The spread off the best plane; off the nearer of two parallel ones where the ball holds both
-/// sides of something thin.
-double spread_off_plane(const Points& points, const std::vector<SpatialIndex::Neighbour>& ball) {
+/// sides of something thin [radius of the ball].
+double spread_off_plane(const NearPoints& ball, std::vector<double>& heights) {
     // A large ball is thinned: its covariance is as good from a few thousand points.
-    const std::size_t stride = 1 + ball.size() / kMostInBall;
+    const std::size_t stride = 1 + ball.size / kMostInBall;
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-    const Eigen::Vector3d origin = points.col(ball.front().index);
     double count = 0;
-    for (std::size_t i = 0; i < ball.size(); i += stride, ++count) {
-        const Eigen::Vector3d p = points.col(ball[i].index) - origin;
+    for (std::size_t i = 0; i < ball.size; i += stride, ++count) {
+        const Eigen::Vector3d p(ball.x[i], ball.y[i], ball.z[i]);
         mean += p;
         squares += p * p.transpose();
     }
@@ -98,9 +98,10 @@ double spread_off_plane(const Points& points, const std::vector<SpatialIndex::Ne
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
     solver.computeDirect(squares / count - mean * mean.transpose());
     const Eigen::Vector3d normal = solver.eigenvectors().col(0);
-    std::vector<double> heights;
-    for (std::size_t i = 0; i < ball.size(); i += stride) {
-        heights.push_back(normal.dot(points.col(ball[i].index) - origin - mean));
+    const double offset = normal.dot(mean);
+    heights.clear();
+    for (std::size_t i = 0; i < ball.size; i += stride) {
+        heights.push_back(normal.dot(Eigen::Vector3d(ball.x[i], ball.y[i], ball.z[i])) - offset);
     }
     // Three degrees of freedom went into the plane.
     const double unbiased = count / std::max(1.0, count - 3);
@@ -118,35 +119,36 @@ constexpr double kCutOff = 1.9;
 constexpr double kQuantile = 0.2;
 constexpr double kDeviationsBelow = 0.842;
 
-double undo_cuts(double spread, double radius, std::size_t points) {
-    const double share = spread / radius;
+double undo_cuts(double share, std::size_t points) {
     const double counted = static_cast<double>(std::min(points, kMostInBall));
-    return spread * (1 + kCutOff * share * share) * (1 + kDeviationsBelow / std::sqrt(2 * counted));
+    return share * (1 + kCutOff * share * share) * (1 + kDeviationsBelow / std::sqrt(2 * counted));
 }
 
-Eigen::Vector3d mean_of(const Points& points, const std::vector<SpatialIndex::Neighbour>& ball) {
+Eigen::Vector3d mean_of(const NearPoints& ball) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const SpatialIndex::Neighbour& neighbour : ball) sum += points.col(neighbour.index);
-    return sum / static_cast<double>(ball.size());
+    for (std::size_t i = 0; i < ball.size; ++i) {
+        sum += Eigen::Vector3d(ball.x[i], ball.y[i], ball.z[i]);
+    }
+    return sum / static_cast<double>(ball.size);
 }
 
 /// The spread in the smallest ball around a place of the shape that is wide enough for it; less
 /// than 0 where none is: the point is alone, or all around it is thinner than it is rough.
-double noise_around(const Points& points, const SpatialIndex& index, Eigen::Index i, double radius,
-                    double largest, std::vector<SpatialIndex::Neighbour>& ball) {
+double noise_around(const PointGrid& grid, const Eigen::Vector3d& point, double radius,
+                    double largest, NearPoints& ball, std::vector<double>& heights) {
     double growth = kGrowth;
     for (; radius <= largest; radius *= growth) {
         growth = kGrowth;
-        index.within(points.col(i), radius, ball);
-        if (ball.size() < kFewestForPlane) continue;
-        double wanted = kSigmasInBall * spread_off_plane(points, ball) / radius;
+        grid.gather(point, radius, 1.0F, ball);
+        if (ball.size < kFewestForPlane) continue;
+        double wanted = kSigmasInBall * spread_off_plane(ball, heights);
         if (wanted <= kNearlyWide) {
             // The point is off the shape; the mean of those around it is nearer.
-            index.within(mean_of(points, ball), radius, ball);
-            if (ball.size() < kFewestForPlane) continue;
-            const double spread = spread_off_plane(points, ball);
-            wanted = kSigmasInBall * spread / radius;
-            if (wanted <= 1) return undo_cuts(spread, radius, ball.size());
+            grid.gather(point + radius * mean_of(ball), radius, 1.0F, ball);
+            if (ball.size < kFewestForPlane) continue;
+            const double share = spread_off_plane(ball, heights);
+            wanted = kSigmasInBall * share;
+            if (wanted <= 1) return radius * undo_cuts(share, ball.size);
         }
         growth = std::clamp(kShareOfStep * wanted, kGrowth, kMostGrowth);
     }
@@ -154,44 +156,84 @@ double noise_around(const Points& points, const SpatialIndex& index, Eigen::Inde
 }
 
 /// A low quantile over a sample of the points, each in a ball of its own.
-double noise_of(const Points& points, const SpatialIndex& index, double radius, double largest,
+double noise_of(const Points& points, const PointGrid& grid, double radius, double largest,
                 const Execution& execution) {
     const std::vector<Eigen::Index> chosen = sample(points, kNoiseSample);
     std::vector<double> spreads(chosen.size(), -1.0);
     parallel_for(execution, chosen.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
-        std::vector<SpatialIndex::Neighbour> ball;
+        NearPoints ball;
+        std::vector<double> heights;
         for (std::size_t i = begin; i < end; ++i) {
-            spreads[i] = noise_around(points, index, chosen[i], radius, largest, ball);
+            spreads[i] =
+                noise_around(grid, points.col(chosen[i]), radius, largest, ball, heights);
         }
     });
     std::erase(spreads, -1.0);
     return quantile(spreads, kQuantile);
 }
 
+/// Distances of a point to those around it [input length].
+struct Surroundings {
+    double nearest = -1.0;  ///< to the nearest other position; less than 0: there is none near
+    double small = 0.0;     ///< to the point that fills the small ball
+    double full = 0.0;      ///< to the one that fills the ball
+};
+
+Surroundings surroundings(const PointGrid& grid, const Eigen::Vector3d& point, double radius,
+                          double largest, std::size_t points_in_ball, NearPoints& ball,
+                          std::vector<float>& squared) {
+    do {
+        grid.gather(point, radius, 1.0F, ball);
+        radius *= 2;
+    } while (ball.size < points_in_ball && radius <= 4 * largest);
+    radius /= 2;
+    squared.resize(ball.size);
+    for (std::size_t i = 0; i < ball.size; ++i) {
+        squared[i] = ball.x[i] * ball.x[i] + ball.y[i] * ball.y[i] + ball.z[i] * ball.z[i];
+    }
+    const std::size_t k = std::min(points_in_ball, ball.size);
+    std::partial_sort(squared.begin(), squared.begin() + static_cast<std::ptrdiff_t>(k),
+                      squared.end());
+    squared.resize(k);
+    const auto other = std::ranges::find_if(squared, [](float distance) { return distance > 0; });
+    if (other == squared.end()) return {};  // one of many duplicates
+    const std::size_t small = std::min(kPointsInSmallBall, k) - 1;
+    return {radius * std::sqrt(static_cast<double>(*other)),
+            radius * std::sqrt(static_cast<double>(squared[small])),
+            radius * std::sqrt(static_cast<double>(squared.back()))};
+}
+
 /// Distances to the nearest other position, and to the point that makes the ball full.
+/// @param cell of the grid
 /// @returns the median radius of the smallest ball to look for noise in
-double measure_spacing(const Points& points, const SpatialIndex& index, Measurements& result,
-                       const Execution& execution) {
+double measure_spacing(const Points& points, const PointGrid& grid, double cell,
+                       Measurements& result, const Execution& execution) {
+    const std::vector<Eigen::Index> chosen = sample(points, kSpacingSample);
+    const std::size_t k = std::min(kPointsInBall, result.points);
+    std::vector<Surroundings> around(chosen.size());
+    parallel_for(execution, chosen.size(), 64,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                     NearPoints ball;
+                     std::vector<float> squared;
+                     for (std::size_t i = begin; i < end; ++i) {
+                         around[i] = surroundings(grid, points.col(chosen[i]), 1.5 * cell,
+                                                  result.diagonal, k, ball, squared);
+                     }
+                 });
+    std::erase_if(around, [](const Surroundings& s) { return s.nearest < 0; });
+    result.mean_spacing = result.density_radius = result.diagonal;
+    if (around.empty()) return result.diagonal;
     std::vector<double> full;
     std::vector<double> small;
     double sum = 0.0;
-    std::size_t counted = 0;
-    const std::size_t k = std::min(kPointsInBall, result.points);
-    for (const Eigen::Index i : sample(points, kSpacingSample)) {
-        throw_if_cancelled(execution);
-        const auto neighbours = index.nearest(points.col(i), k);
-        const auto other = std::ranges::find_if(
-            neighbours, [](const auto& neighbour) { return neighbour.squared_distance > 0; });
-        if (other == neighbours.end()) continue;  // one of many duplicates
-        sum += std::sqrt(other->squared_distance);
-        full.push_back(std::sqrt(neighbours.back().squared_distance));
-        small.push_back(std::sqrt(
-            neighbours[std::min(kPointsInSmallBall, neighbours.size()) - 1].squared_distance));
-        ++counted;
+    for (const Surroundings& s : around) {
+        sum += s.nearest;
+        full.push_back(s.full);
+        small.push_back(s.small);
     }
-    result.mean_spacing = counted ? sum / static_cast<double>(counted) : result.diagonal;
-    result.density_radius = counted ? median(full) : result.diagonal;
-    return counted ? median(small) : result.diagonal;
+    result.mean_spacing = sum / static_cast<double>(around.size());
+    result.density_radius = median(full);
+    return median(small);
 }
 
 }  // namespace
@@ -208,9 +250,10 @@ Measurements measure(const Points& points, const Execution& execution) {
         throw Error(ErrorCode::DegenerateShape,
                     "All points of the shape coincide: it has no extent.");
     }
-    const SpatialIndex index(points, execution);
-    const double radius = measure_spacing(points, index, result, execution);
-    result.noise = noise_of(points, index, radius, std::max(radius, kLargestBall * result.diagonal),
+    const double cell = cell_of_some_points(points, kPointsInCell);
+    const PointGrid grid(points, cell, execution);
+    const double radius = measure_spacing(points, grid, cell, result, execution);
+    result.noise = noise_of(points, grid, radius, std::max(radius, kLargestBall * result.diagonal),
                             execution);
     return result;
 }

@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "core/base/random.h"
-#include "core/shape/hash_grid.h"
 
 namespace lpf {
 namespace {
@@ -44,31 +43,10 @@ private:
     Round rounds_[4];
 };
 
-/// The chosen points, of which no two are nearer than the spacing.
-class DiskSet {
-public:
-    DiskSet(const Points& points, double spacing)
-        : squared_spacing_(spacing * spacing),
-          chosen_(points.rowwise().minCoeff(), extent_of(points), spacing) {}
+constexpr std::size_t kPointsPerChunk = 1U << 16U;
 
-    /// Chooses the point unless a chosen one is nearer than the spacing.
-    bool insert(const Eigen::Vector3d& point) {
-        bool free = true;
-        chosen_.for_each_near(point, [&](std::uint32_t, const Eigen::Vector3d& other) {
-            return free = (other - point).squaredNorm() >= squared_spacing_;
-        });
-        if (free) chosen_.add(point);
-        return free;
-    }
-
-private:
-    static double extent_of(const Points& points) {
-        return (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff();
-    }
-
-    double squared_spacing_;
-    HashGrid chosen_;
-};
+/// The largest float below 1: a point just at the spacing may stay.
+constexpr float kInside = 0x1.fffffep-1F;
 
 double area_of(const Points& vertices, const Triangles& triangles, Eigen::Index f) {
     const Eigen::Vector3d corner = vertices.col(triangles(0, f));
@@ -99,29 +77,40 @@ std::vector<std::size_t> share_out(const std::vector<double>& areas, double per_
 
 }  // namespace
 
-std::vector<std::uint32_t> poisson_disk_subset(const Points& points, double spacing,
-                                               std::uint64_t random_seed,
+std::vector<std::uint32_t> poisson_disk_subset(const PointGrid& grid,
+                                               std::span<const std::uint32_t> places,
+                                               double spacing, std::uint64_t random_seed,
                                                const Execution& execution) {
-    const auto n = static_cast<std::size_t>(points.cols());
     std::vector<std::uint32_t> chosen;
-    if (n == 0) return chosen;
+    if (places.empty()) return chosen;
     if (!(spacing > 0)) {
-        chosen.resize(n);
+        chosen.resize(places.size());
         std::iota(chosen.begin(), chosen.end(), 0U);
         return chosen;
     }
-    DiskSet disks(points, spacing);
-    const Permutation permutation(n, random_seed);
+    std::vector<std::uint8_t> is_covered(grid.size(), 0);
+    NearPoints disk;
+    const Permutation permutation(places.size(), random_seed);
     // Each choice depends on those before: one thread, in chunks for cancellation and progress.
-    parallel_for(on_one_thread(execution), "seeds", "points", n, 1U << 16U,
+    parallel_for(on_one_thread(execution), "seeds", "points", places.size(), kPointsPerChunk,
                  [&](std::size_t begin, std::size_t end, std::size_t) {
                      for (std::size_t i = begin; i < end; ++i) {
-                         const auto index = static_cast<std::uint32_t>(permutation[i]);
-                         if (disks.insert(points.col(index))) chosen.push_back(index);
+                         const auto k = static_cast<std::uint32_t>(permutation[i]);
+                         if (is_covered[places[k]]) continue;
+                         chosen.push_back(k);
+                         grid.gather(grid.point(places[k]), spacing, kInside, disk);
+                         for (std::size_t p = 0; p < disk.size; ++p) is_covered[disk.index[p]] = 1;
                      }
                  });
     std::sort(chosen.begin(), chosen.end());
     return chosen;
+}
+
+std::vector<std::uint32_t> poisson_disk_subset(const Points& points, double spacing,
+                                               std::uint64_t random_seed,
+                                               const Execution& execution) {
+    const PointGrid grid(points, spacing > 0 ? spacing : 1.0, execution);
+    return poisson_disk_subset(grid, grid.places(), spacing, random_seed, execution);
 }
 
 Points sample_triangles(const Points& vertices, const Triangles& triangles, double per_area,

@@ -32,7 +32,7 @@ Grown grow(const Points& points, const Vector3d& centre, double radius, double n
     grown.frame.centre = centre;
     grown.frame.radius = radius;
     const PointGrid grid(points, 0.55 * radius);
-    grid.gather(grown.frame, kExtent, grown.target);
+    grid.gather(grown.frame.centre, grown.frame.radius, kExtent, grown.target);
     PieceGrower grower;
     grown.piece = grower.grow(grown.target, static_cast<float>(noise / radius), kExtent);
     grown.frame.origin = grown.piece.origin;

@@ -290,7 +290,7 @@ struct MeshProbe {
           grid(samples.points, 0.5 * at.radius),
           frame(at) {
         ProbeScratch scratch;
-        grid.gather(frame, 1.1F, scratch.target);
+        grid.gather(frame.centre, frame.radius, 1.1F, scratch.target);
         scratch.target.to_frame(frame);
         std::vector<float> v(3 * static_cast<std::size_t>(pattern.padded_size()));
         make_nearest_triangle_probing(pattern, mesh, samples, grid)

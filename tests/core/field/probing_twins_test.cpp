@@ -202,7 +202,7 @@ struct MeshProbe {
         TargetArea target;
         Frame frame;
         frame.centre.setZero();
-        grid.gather(frame, 10.0F, target);
+        grid.gather(frame.centre, frame.radius, 10.0F, target);
         const auto probing = make_nearest_triangle_probing(pattern, mesh, samples, grid);
         return probed(*probing, pattern, target);
     }

@@ -110,7 +110,7 @@ TEST(Seeding, TakesSmallRadiiWhereTheShapeBends) {
 /// Members of a seed's piece, as indices into the grid's order.
 TargetArea members_of(const Frame& seed, const Piece& piece, const PointGrid& grid) {
     TargetArea target;
-    grid.gather(seed, 1.1F, target);
+    grid.gather(seed.centre, seed.radius, 1.1F, target);
     Frame frame = seed;
     frame.origin = piece.origin;
     frame.axes = piece.axes;

@@ -62,7 +62,7 @@ TEST_P(PointGridOn, GathersTheBallThatBruteForceFinds) {
         for (const double radius : {0.08, 0.35, 2.0}) {
             for (const Eigen::Vector3d& centre : centres()) {
                 TargetArea target;
-                grid.gather(frame_at(centre, radius), kReach, target);
+                grid.gather(centre, radius, kReach, target);
                 std::map<std::uint32_t, Eigen::Vector3f> found;
                 for (std::size_t i = 0; i < target.size; ++i) {
                     const std::uint32_t index = grid.order()[target.index[i]];
@@ -93,9 +93,9 @@ TEST_P(PointGridOn, GathersInTheSameOrderEachTime) {
     TargetArea first;
     TargetArea second;
     second.reserve(1000);
-    grid.gather(frame_at(points.col(0), 0.5), 1.1F, first);
-    grid.gather(frame_at(points.col(0), 2.0), 1.1F, second);  // a used buffer
-    grid.gather(frame_at(points.col(0), 0.5), 1.1F, second);
+    grid.gather(points.col(0), 0.5, 1.1F, first);
+    grid.gather(points.col(0), 2.0, 1.1F, second);  // a used buffer
+    grid.gather(points.col(0), 0.5, 1.1F, second);
     ASSERT_EQ(first.size, second.size);
     EXPECT_GE(first.size, 1U);
     EXPECT_TRUE(std::equal(first.index.begin(), first.index.begin() + std::ptrdiff_t(first.size),
@@ -112,7 +112,7 @@ TEST(TargetArea, ToFrameAgreesWithTheFramesOwnTransform) {
     frame.origin = {-0.2F, 0.1F, 0.05F};
     const PointGrid grid(points, 0.2);
     TargetArea target;
-    grid.gather(frame, 1.1F, target);
+    grid.gather(frame.centre, frame.radius, 1.1F, target);
     ASSERT_GT(target.size, 20U);
     target.to_frame(frame);
     for (std::size_t i = 0; i < target.size; ++i) {
@@ -128,8 +128,8 @@ TEST(TargetArea, KeepsDetailAtMapCoordinates) {
     const PointGrid far(points.colwise() + offset, 0.2);
     TargetArea a;
     TargetArea b;
-    near.gather(frame_at(points.col(5), 0.3), 1.1F, a);
-    far.gather(frame_at(points.col(5) + offset, 0.3), 1.1F, b);
+    near.gather(points.col(5), 0.3, 1.1F, a);
+    far.gather(points.col(5) + offset, 0.3, 1.1F, b);
     ASSERT_EQ(a.size, b.size);
     std::map<std::uint32_t, float> x;
     for (std::size_t i = 0; i < a.size; ++i) x[near.order()[a.index[i]]] = a.x[i];

@@ -1,0 +1,201 @@
+#include "core/shape/point_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/base/kernels.h"
+#include "core/base/radix_sort.h"
+
+namespace lpf {
+namespace {
+
+/// Cells along an axis at most: three axes must fit one 63-bit key, and the slabs need a table.
+constexpr double kMaximumCells = 1 << 20;
+
+constexpr std::size_t kPointsPerChunk = 1U << 16U;
+
+constexpr Eigen::Index kSampleOfCells = 1 << 14;
+constexpr int kMostHalvings = 20;
+
+/// How many of the other keys equal a key, on average.
+double mean_equals(std::vector<std::uint64_t>& keys) {
+    std::ranges::sort(keys);
+    double pairs = 0;
+    for (std::size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
+        while (end < keys.size() && keys[end] == keys[begin]) ++end;
+        const auto equal = static_cast<double>(end - begin);
+        pairs += equal * (equal - 1);
+    }
+    return pairs / static_cast<double>(keys.size());
+}
+
+}  // namespace
+
+double cell_of_some_points(const Points& points, double most) {
+    const Eigen::Index stride = 1 + (points.cols() - 1) / kSampleOfCells;
+    const Eigen::Vector3d low = points.rowwise().minCoeff();
+    double cell = (points.rowwise().maxCoeff() - low).maxCoeff();
+    for (int i = 0; i < kMostHalvings && cell > 0; ++i, cell /= 2) {
+        std::vector<std::uint64_t> keys;
+        for (Eigen::Index k = 0; k < points.cols(); k += stride) {
+            const Eigen::Vector3d at = (points.col(k) - low) / cell;
+            const auto axis = [&](int a) { return static_cast<std::uint64_t>(at[a]); };
+            keys.push_back((axis(2) << 42U) | (axis(1) << 21U) | axis(0));
+        }
+        if (mean_equals(keys) * static_cast<double>(stride) <= most) break;
+    }
+    return cell;
+}
+
+void NearPoints::reserve(std::size_t points) {
+    if (x.size() >= points) return;
+    const std::size_t room = std::max(points, 2 * x.size());
+    x.resize(room);
+    y.resize(room);
+    z.resize(room);
+    index.resize(room);
+}
+
+PointGrid::PointGrid(const Points& points, double cell, const Execution& execution) {
+    if (points.cols() == 0) {
+        slab_first_row_ = {0, 0};
+        rows_ = {{0, 0}};
+        cells_ = {{0, 0}};
+        return;
+    }
+    origin_ = points.rowwise().minCoeff();
+    const Eigen::Vector3d extent = points.rowwise().maxCoeff() - origin_;
+    cell = std::max(cell, extent.maxCoeff() / kMaximumCells);
+    inverse_cell_ = 1.0 / cell;
+    for (int axis = 0; axis < 3; ++axis) {
+        size_[axis] = static_cast<std::uint64_t>(extent[axis] * inverse_cell_) + 1;
+    }
+    if (size_[0] * size_[1] * size_[2] <= std::numeric_limits<std::uint32_t>::max()) {
+        sort_points<std::uint32_t>(points, execution);
+    } else {
+        sort_points<std::uint64_t>(points, execution);
+    }
+}
+
+std::uint64_t PointGrid::key_of(const Eigen::Vector3d& relative) const {
+    std::uint64_t cell[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        cell[axis] =
+            std::min(static_cast<std::uint64_t>(relative[axis] * inverse_cell_), size_[axis] - 1);
+    }
+    return (cell[2] * size_[1] + cell[1]) * size_[0] + cell[0];
+}
+
+template <typename Key>
+void PointGrid::sort_points(const Points& points, const Execution& execution) {
+    const auto n = static_cast<std::size_t>(points.cols());
+    std::vector<Keyed<Key>> items(n);
+    parallel_for(execution, n, kPointsPerChunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                     for (std::size_t i = begin; i < end; ++i) {
+                         items[i] = {static_cast<Key>(key_of(
+                                         points.col(static_cast<Eigen::Index>(i)) - origin_)),
+                                     static_cast<std::uint32_t>(i)};
+                     }
+                 });
+    {
+        std::vector<Keyed<Key>> room;
+        radix_sort(items, room, size_[0] * size_[1] * size_[2], execution);
+    }
+    order_.resize(n);
+    x_.resize(n);
+    y_.resize(n);
+    z_.resize(n);
+    parallel_for(execution, n, kPointsPerChunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                     for (std::size_t i = begin; i < end; ++i) {
+                         order_[i] = items[i].second;
+                         const Eigen::Vector3d relative = points.col(items[i].second) - origin_;
+                         x_[i] = relative.x();
+                         y_[i] = relative.y();
+                         z_[i] = relative.z();
+                     }
+                 });
+    index_cells(items, execution);
+}
+
+template <typename Key>
+void PointGrid::index_cells(const std::vector<Keyed<Key>>& sorted, const Execution& execution) {
+    std::vector<std::vector<std::uint32_t>> starts(chunk_count(sorted.size(), kPointsPerChunk));
+    parallel_for(execution, sorted.size(), kPointsPerChunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                     for (std::size_t i = begin; i < end; ++i) {
+                         if (i > 0 && sorted[i].first == sorted[i - 1].first) continue;
+                         starts[chunk].push_back(static_cast<std::uint32_t>(i));
+                     }
+                 });
+    slab_first_row_.assign(size_[2] + 1, 0);
+    std::uint64_t last_row = ~std::uint64_t{0};
+    for (const std::vector<std::uint32_t>& chunk : starts) {
+        for (const std::uint32_t first_point : chunk) {
+            const std::uint64_t key = sorted[first_point].first;
+            const std::uint64_t row = key / size_[0];
+            if (row != last_row) {
+                rows_.push_back({static_cast<std::uint32_t>(row % size_[1]),
+                                 static_cast<std::uint32_t>(cells_.size())});
+                ++slab_first_row_[row / size_[1] + 1];
+            }
+            cells_.push_back({static_cast<std::uint32_t>(key % size_[0]), first_point});
+            last_row = row;
+        }
+    }
+    for (std::size_t z = 0; z < size_[2]; ++z) slab_first_row_[z + 1] += slab_first_row_[z];
+    rows_.push_back({~0U, static_cast<std::uint32_t>(cells_.size())});
+    cells_.push_back({~0U, static_cast<std::uint32_t>(order_.size())});
+}
+
+std::vector<std::uint32_t> PointGrid::places() const {
+    std::vector<std::uint32_t> places(order_.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        places[order_[i]] = static_cast<std::uint32_t>(i);
+    }
+    return places;
+}
+
+void PointGrid::gather(const Eigen::Vector3d& centre, double unit, float reach,
+                       NearPoints& near) const {
+    near.size = 0;
+    const Eigen::Vector3d relative = centre - origin_;
+    const double ball = unit * static_cast<double>(reach);
+    std::uint64_t low[3];
+    std::uint64_t high[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        const double last = static_cast<double>(size_[axis] - 1);
+        const double first_cell = std::floor((relative[axis] - ball) * inverse_cell_);
+        const double last_cell = std::floor((relative[axis] + ball) * inverse_cell_);
+        if (last_cell < 0 || first_cell > last) return;
+        low[axis] = static_cast<std::uint64_t>(std::max(first_cell, 0.0));
+        high[axis] = static_cast<std::uint64_t>(std::min(last_cell, last));
+    }
+    const double scale = 1.0 / unit;
+    const auto gather_run = [&](std::size_t begin, std::size_t end) {
+        near.reserve(near.size + end - begin);
+        const std::size_t at = near.size;
+        near.size += kernels::gather_ball(&x_[begin], &y_[begin], &z_[begin], end - begin,
+                                            relative.data(), scale, reach, begin, &near.x[at],
+                                            &near.y[at], &near.z[at], &near.index[at]);
+    };
+    for (std::uint64_t z = low[2]; z <= high[2]; ++z) {
+        auto row = rows_.begin() + slab_first_row_[z];
+        const auto rows_end = rows_.begin() + slab_first_row_[z + 1];
+        row = std::lower_bound(row, rows_end, low[1],
+                               [](const Row& a, std::uint64_t y) { return a.y < y; });
+        for (; row != rows_end && row->y <= high[1]; ++row) {
+            const auto cells_end = cells_.begin() + (row + 1)->first_cell;
+            const auto cell =
+                std::lower_bound(cells_.begin() + row->first_cell, cells_end, low[0],
+                                 [](const Cell& a, std::uint64_t x) { return a.x < x; });
+            auto last = cell;
+            while (last != cells_end && last->x <= high[0]) ++last;
+            if (cell != last) gather_run(cell->first_point, last->first_point);
+        }
+    }
+}
+
+}  // namespace lpf
