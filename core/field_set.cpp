@@ -203,11 +203,17 @@ void FieldSet::optimise_poses(int passes, const Execution& execution) {
     for (int pass = 0; pass < passes; ++pass) {
         const Execution part = part_of(execution, static_cast<double>(pass) / passes,
                                        static_cast<double>(pass + 1) / passes);
-        // Frame j changes only in its own call.
-        for_each_probed("pose", part, 0, [this](std::size_t j, Worker& worker, std::size_t) {
-            if (pose_is_fixed(j)) return;
-            apply_pose(fit_pose(pattern_, worker.field.data(), worker.decoded.data()), frames[j]);
-        });
+        parallel_for(part, "pose", "fields", size(), kFieldsPerChunk,
+                     [&](std::size_t begin, std::size_t end, std::size_t) {
+                         Worker worker = make_worker(0);
+                         for (std::size_t j = begin; j < end; ++j) {
+                             if (dimensions[j] == kTooFewPoints || pose_is_fixed(j)) continue;
+                             probe(j, worker);
+                             apply_pose(fit_pose(pattern_, worker.field.data(),
+                                                 worker.decoded.data()),
+                                        frames[j]);
+                         }
+                     });
     }
 }
 

@@ -1,11 +1,13 @@
 #include "core/votes.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <numeric>
 
+#include "core/ballot.h"
+#include "core/base/vote_kernels.h"
 #include "core/field/density_map.h"
+#include "core/field/field_image.h"
 
 namespace lpf {
 namespace {
@@ -13,9 +15,8 @@ namespace {
 /// The error that no field's representation is trusted below [radius].
 constexpr float kErrorFloor = 1e-4F;
 
-constexpr float kFixedPoint = 4294967296.0F;  // 2^32
-constexpr float kLeastWeight = 0x1p-20F;
-constexpr float kLargestWeight = 0x1p10F;
+/// A vote counts so much where no points of the LPF lie.
+constexpr float kLeastDensity = 0.001F;
 
 /// A vote to move by this many sigma counts 0.6 times one to stay: in the first round, and in the
 /// second.
@@ -24,10 +25,6 @@ constexpr double kSecondWidth = 0.52;
 
 /// The density of an LPF's points is taken within so many sigma of its piece.
 constexpr float kSigmasOfDensity = 2.0F;
-
-void add(std::int64_t& sum, float value) {
-    std::atomic_ref(sum).fetch_add(static_cast<std::int64_t>(value), std::memory_order_relaxed);
-}
 
 /// How much an LPF is believed, relative to the mean: by the squared error that its piece promises,
 /// or by the representation error where it has none.
@@ -46,19 +43,6 @@ std::vector<float> reliabilities(const FieldSet& fields, const AnalysisResult& a
         error = sharp ? ratio * ratio * ratio : ratio;
     }
     return errors;
-}
-
-/// The consolidated field at a place in the plane: T(x, y), so that nothing snaps to the nodes.
-Eigen::Vector3f interpolate(const Pattern& pattern, const std::vector<float>& field, float x,
-                            float y) {
-    const Pattern::Stencil stencil = pattern.stencil(x, y);
-    const int stride = pattern.padded_size();
-    Eigen::Vector3f value = Eigen::Vector3f::Zero();
-    for (int k = 0; k < 4; ++k) {
-        const float* node = field.data() + stencil.node[k];
-        value += stencil.weight[k] * Eigen::Vector3f(node[0], node[stride], node[2 * stride]);
-    }
-    return value;
 }
 
 /// One round of votes.
@@ -80,66 +64,111 @@ public:
                               [&](std::size_t j, FieldSet::Worker& worker, std::size_t) {
                                   if (fields_.dimensions[j] == kTooFewPoints) return;
                                   analysis_.dictionary.decode(analysis_.codes[j], worker.decoded);
-                                  if (before_) move_as_decided(j, worker.probe.target);
                                   vote(j, worker, ballot);
                               });
     }
 
 private:
+    /// A vector for each point of a target area.
+    struct Arrows {
+        std::vector<float> x, y, z;
+        explicit Arrows(std::size_t n) : x(n), y(n), z(n) {}
+        [[nodiscard]] std::size_t size() const { return x.size(); }
+    };
+
     [[nodiscard]] float size_of(std::size_t j) const {
         return static_cast<float>(fields_.frames[j].radius / analysis_.radius);
     }
 
+    static void rotate(const Eigen::Matrix<float, 3, 3, Eigen::RowMajor>& by, Arrows& arrows) {
+        kernels::rotate(by.data(), arrows.x.data(), arrows.y.data(), arrows.z.data(),
+                        arrows.size());
+    }
+
     /// Moves the points of a flattened target area to where the round before has put them.
     void move_as_decided(std::size_t j, TargetArea& target) const {
-        const Piece& piece = fields_.pieces[j];
-        const Eigen::Matrix3f to_frame = fields_.frames[j].axes.transpose() / size_of(j);
+        Arrows moves(target.size);
         for (std::size_t i = 0; i < target.size; ++i) {
-            Eigen::Vector3f p(target.x[i], target.y[i], target.z[i]);
-            p += piece.mean(p.x(), p.y()) + to_frame * (*before_)[target.index[i]];
-            p -= piece.mean(p.x(), p.y());
-            target.x[i] = p.x();
-            target.y[i] = p.y();
-            target.z[i] = p.z();
+            const Eigen::Vector3f& move = (*before_)[target.index[i]];
+            moves.x[i] = move.x();
+            moves.y[i] = move.y();
+            moves.z[i] = move.z();
+        }
+        rotate(fields_.frames[j].axes.transpose() / size_of(j), moves);
+        add_mean_change(fields_.pieces[j], -1.0F, target.x.data(), target.y.data(), moves.x.data(),
+                        moves.y.data(), target.size, target.y.data(), target.z.data());
+        for (std::size_t i = 0; i < target.size; ++i) {
+            target.x[i] += moves.x[i];
+            target.y[i] += moves.y[i];
+            target.z[i] += moves.z[i];
         }
     }
 
     void vote(std::size_t j, FieldSet::Worker& worker, Ballot& ballot) const {
         const Piece& piece = fields_.pieces[j];
-        const TargetArea& target = worker.probe.target;
-        const float size = size_of(j);
-        const Eigen::Matrix3f to_world = size * fields_.frames[j].axes;
-        DensityMap density;
-        if (piece.exists()) density.count(piece, target, kSigmasOfDensity * piece.noise);
-
-        for (std::size_t i = 0; i < target.size; ++i) {
-            const float x = target.x[i];
-            const float y = target.y[i];
-            const float fade = 1.0F - (x * x + y * y);
-            if (fade <= 0.0F) continue;
-            Eigen::Vector3f move = interpolate(fields_.pattern(), worker.decoded, x, y);
-            // Once is enough for what pulls points from beyond a border.
-            if (before_ && piece.dimension == kSurface) move.head<2>().setZero();
-            move += piece.shape(x + move.x(), y + move.y()) - piece.mean(x, y);
-            move.z() -= target.z[i];
-            if (piece.is_curve()) move.y() -= y;
-            const float weight =
-                reliability_[j] * (params_.sharp ? 1.0F : fade * fade) * density.at(x, y);
-            const auto propose = [&](const Eigen::Vector3f& to) {
-                ballot.vote(target.index[i], weight * likelihood(piece, size * to.norm()),
-                            to_world * to);
-            };
-            const float half_gap = piece.half_gap(x, y);
-            propose(move + half_gap * Eigen::Vector3f::UnitZ());
-            if (half_gap > 0) propose(move - half_gap * Eigen::Vector3f::UnitZ());
+        TargetArea& target = worker.probe.target;
+        if (before_) move_as_decided(j, target);
+        Arrows moves = wanted_moves(piece, worker);
+        std::vector<float> density(target.size, 1.0F);
+        if (piece.exists()) {
+            DensityMap map;
+            map.count(piece, target, kSigmasOfDensity * piece.noise);
+            map.read(target.x.data(), target.y.data(), target.size, density.data());
         }
+        if (piece.sheets[0] == 0) {
+            cast(j, target, density, moves, ballot);
+            return;
+        }
+        Arrows other = moves;
+        for (std::size_t i = 0; i < target.size; ++i) {
+            const float half_gap = piece.half_gap(target.x[i], target.y[i]);
+            moves.z[i] += half_gap;
+            other.z[i] -= half_gap;
+        }
+        cast(j, target, density, moves, ballot);
+        cast(j, target, density, other, ballot);
     }
 
-    /// Of a move of this length [radius of the analysis].
-    [[nodiscard]] float likelihood(const Piece& piece, float length) const {
-        if (width_ <= 0) return 1.0F;
-        const float off = length / (width_ * piece.steepness);
-        return std::exp(-0.5F * off * off);
+    /// From where the points are to the consolidated field, on the piece: T(x, y) between the nodes,
+    /// too, so that nothing snaps to them.
+    [[nodiscard]] Arrows wanted_moves(const Piece& piece, FieldSet::Worker& worker) const {
+        const TargetArea& target = worker.probe.target;
+        const float* x = target.x.data();
+        const float* y = target.y.data();
+        const std::size_t n = target.size;
+        Arrows moves(n);
+        FieldImage image(fields_.pattern());
+        image.assign(worker.decoded.data());
+        float* const out[3] = {moves.x.data(), moves.y.data(), moves.z.data()};
+        image.read(x, y, n, out);
+        if (before_ && piece.dimension == kSurface) {
+            // Once is enough for what pulls points from beyond a border.
+            std::ranges::fill(moves.x, 0.0F);
+            std::ranges::fill(moves.y, 0.0F);
+        }
+        const Arrows along = moves;
+        add_mean_change(piece, 1.0F, x, y, along.x.data(), along.y.data(), n, out[1], out[2]);
+        add_shape(piece, x, y, along.x.data(), along.y.data(), n, out[1], out[2]);
+        for (std::size_t i = 0; i < n; ++i) moves.z[i] -= target.z[i];
+        for (std::size_t i = 0; piece.is_curve() && i < n; ++i) moves.y[i] -= y[i];
+        return moves;
+    }
+
+    /// @param weights the density of the LPF's points at each
+    void cast(std::size_t j, const TargetArea& target, std::vector<float> weights, Arrows& moves,
+              Ballot& ballot) const {
+        const float size = size_of(j);
+        const float sigma = width_ * fields_.pieces[j].steepness / size;
+        kernels::weigh({.reliability = reliability_[j],
+                        .fades = !params_.sharp,
+                        .least_density = kLeastDensity,
+                        .precision = width_ > 0 ? 1.0F / (sigma * sigma) : 0.0F},
+                       target.x.data(), target.y.data(), moves.x.data(), moves.y.data(),
+                       moves.z.data(), target.size, weights.data());
+        rotate(size * fields_.frames[j].axes, moves);
+        ballot.cast({.point = {target.index.data(), target.size},
+                     .weight = weights,
+                     .move = {moves.x.data(), moves.y.data(), moves.z.data()}});
     }
 
     const FieldSet& fields_;
@@ -151,21 +180,6 @@ private:
 };
 
 }  // namespace
-
-void Ballot::vote(std::size_t point, float weight, const Eigen::Vector3f& move) {
-    const float scaled = kFixedPoint * std::clamp(weight, kLeastWeight, kLargestWeight);
-    std::int64_t* sums = sums_.data() + 4 * point;
-    add(sums[0], scaled);
-    for (int c = 0; c < 3; ++c) add(sums[c + 1], scaled * move[c]);
-}
-
-Eigen::Vector3d Ballot::outcome(std::size_t point) const {
-    const std::int64_t* sums = sums_.data() + 4 * point;
-    if (sums[0] == 0) return Eigen::Vector3d::Zero();
-    return Eigen::Vector3d(static_cast<double>(sums[1]), static_cast<double>(sums[2]),
-                           static_cast<double>(sums[3])) /
-           static_cast<double>(sums[0]);
-}
 
 Moves vote(const FieldSet& fields, const AnalysisResult& analysis, const VoteParams& params,
            const Execution& execution) {

@@ -9,23 +9,6 @@
 
 namespace lpf {
 
-/// The moves that LPFs propose for every point, summed: weight, and weighted move [radius]. In
-/// fixed point, so that the order of the threads changes no digit.
-class Ballot {
-public:
-    explicit Ballot(std::size_t points) : sums_(4 * points, 0) {}
-
-    /// May be called from any number of threads.
-    /// @param point in the order of the FieldSet's grid
-    void vote(std::size_t point, float weight, const Eigen::Vector3f& move);
-
-    /// The weighted mean of the moves proposed for a point; zero where nobody voted.
-    [[nodiscard]] Eigen::Vector3d outcome(std::size_t point) const;
-
-private:
-    std::vector<std::int64_t> sums_;
-};
-
 using Moves = std::vector<Eigen::Vector3f>;
 
 /// How LPFs vote.

@@ -4,25 +4,9 @@
 #include <cstring>
 #include <limits>
 
-// One binary runs on every x86-64 and uses what the machine has. Elsewhere, and under sanitizers,
-// the plain loops are compiled once.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(LPF_NO_MULTIVERSION)
-#define LPF_MULTIVERSION \
-    __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
-#else
-#define LPF_MULTIVERSION
-#endif
+#include "core/base/multiversion.h"
 
 namespace lpf::kernels {
-namespace {
-
-// Where a loop has choices that the compiler would make branches of. A lane is a float of any
-// vector unit: the compiler cuts these into as many registers as it takes.
-constexpr int kLanes = 16;
-typedef float Floats __attribute__((vector_size(4 * kLanes)));
-typedef int Ints __attribute__((vector_size(4 * kLanes)));
-
-}  // namespace
 
 LPF_MULTIVERSION
 float dot(const float* a, const float* b, std::size_t n) {
@@ -272,6 +256,15 @@ void offsets_from_parabola(const float c[6], const float* x, const float* y, con
 }
 
 LPF_MULTIVERSION
+void subtract_parabola(const float c[6], const float* x, const float* y, std::size_t n, float* z) {
+    const float c0 = c[0], c1 = c[1], c2 = c[2], c3 = c[3], c4 = c[4], c5 = c[5];
+#pragma omp simd
+    for (std::size_t i = 0; i < n; ++i) {
+        z[i] -= c0 + x[i] * (c1 + x[i] * c3 + y[i] * c4) + y[i] * (c2 + y[i] * c5);
+    }
+}
+
+LPF_MULTIVERSION
 void offsets_from_cubics(const float c[8], const float* x, const float* y, const float* z,
                          std::size_t n, float* out) {
     const float a0 = c[0], a1 = c[1], a2 = c[2], a3 = c[3];
@@ -332,17 +325,30 @@ std::size_t gather_ball(const double* x, const double* y, const double* z, std::
                         const double centre[3], double scale, float limit, std::size_t first,
                         float* out_x, float* out_y, float* out_z, unsigned* out_index) {
     const double cx = centre[0], cy = centre[1], cz = centre[2];
-    const float squared_limit = limit * limit;
+    constexpr std::size_t kBlock = 32;
+    float dx[kBlock], dy[kBlock], dz[kBlock], squared[kBlock];
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        const auto dx = static_cast<float>((x[i] - cx) * scale);
-        const auto dy = static_cast<float>((y[i] - cy) * scale);
-        const auto dz = static_cast<float>((z[i] - cz) * scale);
-        out_x[kept] = dx;
-        out_y[kept] = dy;
-        out_z[kept] = dz;
-        out_index[kept] = static_cast<unsigned>(first + i);
-        kept += static_cast<std::size_t>(dx * dx + dy * dy + dz * dz <= squared_limit);
+    const auto measure = [&](std::size_t at, std::size_t i) {
+        dx[i] = static_cast<float>((x[at] - cx) * scale);
+        dy[i] = static_cast<float>((y[at] - cy) * scale);
+        dz[i] = static_cast<float>((z[at] - cz) * scale);
+        squared[i] = dx[i] * dx[i] + dy[i] * dy[i] + dz[i] * dz[i];
+    };
+    for (std::size_t begin = 0; begin < n; begin += kBlock) {
+        const std::size_t size = n - begin < kBlock ? n - begin : kBlock;
+        if (size == kBlock) {  // what long runs have of whole blocks goes in lanes
+#pragma omp simd
+            for (std::size_t i = 0; i < kBlock; ++i) measure(begin + i, i);
+        } else {
+            for (std::size_t i = 0; i < size; ++i) measure(begin + i, i);
+        }
+        for (std::size_t i = 0; i < size; ++i) {
+            out_x[kept] = dx[i];
+            out_y[kept] = dy[i];
+            out_z[kept] = dz[i];
+            out_index[kept] = static_cast<unsigned>(first + begin + i);
+            kept += static_cast<std::size_t>(squared[i] <= limit * limit);
+        }
     }
     return kept;
 }

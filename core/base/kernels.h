@@ -72,6 +72,9 @@ void parabola_moments(const float* x, const float* y, const float* z, const floa
 void offsets_from_parabola(const float c[6], const float* x, const float* y, const float* z,
                            std::size_t n, float* out);
 
+/// z[i] -= c . (1, x, y, xx, xy, yy).
+void subtract_parabola(const float c[6], const float* x, const float* y, std::size_t n, float* z);
+
 /// out[i] = squared distance of (y, z) to the cubics c[0..3] and c[4..7] of x, over (1, x, xx,
 /// xxx).
 void offsets_from_cubics(const float c[8], const float* x, const float* y, const float* z,

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <optional>
 
-#include "core/field/blur.h"
+#include "core/base/blur.h"
 #include "core/field/normal_equations.h"
 #include "core/field/piece_fit.h"
 
@@ -87,36 +87,47 @@ std::array<BlockMean, kBlocks * kBlocks> block_means(const PieceSample& sample) 
     return blocks;
 }
 
-/// The best two planes over all points of the target area.
+/// The best two planes over all points of the target area. What does not depend on the line is
+/// eliminated once: each line then costs five sums over the blocks.
 Line guess_line(const PieceSample& sample, Piece& piece) {
     const auto blocks = block_means(sample);
-    double least = std::numeric_limits<double>::infinity();
+    NormalEquations<3> plane;
+    for (const BlockMean& b : blocks) plane.add_weighted({1, b.x, b.y}, b.z, b.points);
+    for (int k = 0; k < 3; ++k) plane.damp(k, kDamping);
+    const auto decomposed = plane.decomposed();
+    const Eigen::Vector3d flat = decomposed.solve(plane.right());
+
+    double most = -1;
     Line best;
+    Eigen::Vector3d best_sums = Eigen::Vector3d::Zero();
     for (int k = 0; k < kDirections * (2 * kOffsets + 1); ++k) {
         const Line line{k % kDirections * std::numbers::pi / kDirections,
                         (k / kDirections - kOffsets) * kOffsetStep};
         const double normal_x = line.x();
         const double normal_y = line.y();
-        Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
-        Eigen::Vector4d right = Eigen::Vector4d::Zero();
+        Eigen::Vector3d sums = Eigen::Vector3d::Zero();  // of the distance times 1, x, y
         double squares = 0;
+        double heights = 0;
         for (const BlockMean& b : blocks) {
-            if (b.points == 0) continue;
             const double distance = std::abs(normal_x * b.x + normal_y * b.y - line.at);
-            const Eigen::Vector4d row(1, b.x, b.y, distance);
-            matrix += b.points * row * row.transpose();
-            right += b.points * b.z * row;
-            squares += b.points * b.z * b.z;
+            const double weighted = b.points * distance;
+            sums += weighted * Eigen::Vector3d(1, b.x, b.y);
+            squares += weighted * distance;
+            heights += weighted * b.z;
         }
-        matrix.diagonal().array() += kDamping * (1 + matrix(0, 0));
-        const Eigen::Vector4d planes = matrix.ldlt().solve(right);
-        const double left = squares - planes.dot(right);
-        if (left >= least) continue;
-        least = left;
+        const double free = squares - sums.dot(decomposed.solve(sums));
+        if (free <= kDamping * (1 + squares)) continue;
+        const double slope = (heights - sums.dot(flat)) / free;
+        const double explained = slope * slope * free;
+        if (explained <= most) continue;
+        most = explained;
         best = line;
-        for (int c = 0; c < 3; ++c) piece.coefficients[c] = static_cast<float>(planes[c]);
-        piece.crease.slope = static_cast<float>(planes[3]);
+        best_sums = sums;
+        piece.crease.slope = static_cast<float>(slope);
     }
+    const Eigen::Vector3d planes =
+        flat - static_cast<double>(piece.crease.slope) * decomposed.solve(best_sums);
+    for (int c = 0; c < 3; ++c) piece.coefficients[c] = static_cast<float>(planes[c]);
     return best;
 }
 
@@ -138,19 +149,14 @@ std::optional<double> refine(PieceSample& sample, float sigmas, Line line, Piece
         sample.measure(piece, sample.size());
         const bool last = round + 1 == kRounds;
         const std::size_t stride = last ? 1 : 1 + sample.size() / kPointsOfRound;
-        const double normal_x = line.x();
-        const double normal_y = line.y();
-        NormalEquations<9> equations;
-        for (std::size_t i = 0; i < sample.size(); i += stride) {
-            if (!sample.is_member(piece, i)) continue;
-            const double x = sample.x[i];
-            const double y = sample.y[i];
-            const double along = normal_x * y - normal_y * x;
-            const BlurredDistance blurred =
-                blur(piece.crease.signed_distance(sample.x[i], sample.y[i]), piece.noise);
-            equations.add({1, x, y, x * x, x * y, y * y, blurred.distance, blurred.sign,
-                           blurred.sign * along},
-                          {sample.z[i]});
+        double moments[kernels::kCreaseRows * kernels::kCreaseRows];
+        kernels::crease_moments(creased_surface(piece), sample.x.data(), sample.y.data(),
+                                sample.z.data(), sample.squared_offset.data(),
+                                piece.reach * piece.reach, sample.size(), stride, moments);
+        NormalEquations<9> equations(moments[0]);
+        for (int i = 0; i < 9; ++i) {
+            for (int j = 0; j <= i; ++j) equations.set(i, j, moments[i * kernels::kCreaseRows + j]);
+            equations.set_right(i, moments[9 * kernels::kCreaseRows + i]);
         }
         for (int k = 0; k < 9; ++k) {
             equations.damp(k, k >= 3 && k < 6 ? kDampingOfBends : kDamping);

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "core/base/vote_kernels.h"
 #include "core/field/piece.h"
 
 namespace lpf {
@@ -14,20 +15,14 @@ public:
     /// @param reach members lie no further off than this [radius]
     void count(const Piece& piece, const TargetArea& flattened, float reach);
 
-    /// Density at (x, y) relative to where the members lie, in [.001, 1].
-    [[nodiscard]] float at(float x, float y) const;
+    /// Density at n places relative to where the members lie: 0 to about 1.
+    void read(const float* x, const float* y, std::size_t n, float* out) const;
 
 private:
     static constexpr int kCells = 12;
     static constexpr int kSide = kCells + 2;
 
-    /// Lower left of four cells, and the weights of the right and the upper ones.
-    struct Place {
-        int cell;
-        float right;
-        float up;
-    };
-    [[nodiscard]] Place place(float x, float y) const;
+    [[nodiscard]] kernels::Image image() const;
 
     bool along_curve_ = false;
     float level_ = 0.0F;  // mean density that a member sees; 0 = no members

@@ -25,6 +25,15 @@ public:
         count_ += 1;
     }
 
+    /// The same for `weight` equal rows of one value.
+    void add_weighted(const Row& row, double value, double weight) {
+        for (int i = 0; i < N; ++i) {
+            for (int j = 0; j <= i; ++j) matrix_(i, j) += weight * row[i] * row[j];
+            right_(i, 0) += weight * row[i] * value;
+        }
+        count_ += weight;
+    }
+
     /// Draws unknown i towards zero with the weight of this share of all rows.
     void damp(int i, double share) { matrix_(i, i) += share * (count_ > 1 ? count_ : 1); }
 

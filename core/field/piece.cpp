@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/field/blur.h"
+#include "core/base/blur.h"
+#include "core/base/kernels.h"
+#include "core/base/vote_kernels.h"
 
 namespace lpf {
 namespace {
@@ -61,17 +63,60 @@ float Piece::squared_offset(float x, float y, float z) const {
     return dz * dz;
 }
 
+kernels::CreasedSurface creased_surface(const Piece& piece) {
+    const Crease& crease = piece.crease;
+    return {piece.coefficients, crease.slope, crease.normal_x, crease.normal_y, crease.at,
+            piece.noise};
+}
+
+void add_mean_change(const Piece& piece, float sign, const float* x, const float* y,
+                     const float* dx, const float* dy, std::size_t n, float* out_y, float* out_z) {
+    if (!piece.exists()) return;
+    if (piece.is_curve()) {
+        kernels::add_cubic_change(piece.coefficients, sign, x, dx, n, out_y);
+        kernels::add_cubic_change(piece.coefficients + 4, sign, x, dx, n, out_z);
+        return;
+    }
+    kernels::add_parabola_change(piece.coefficients, sign, x, y, dx, dy, n, out_z);
+    if (piece.crease.slope == 0) return;
+    const auto fold = [&](float px, float py) {
+        return blur(piece.crease.signed_distance(px, py), piece.noise).distance;
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+        out_z[i] += sign * piece.crease.slope *
+                    (fold(x[i] + dx[i], y[i] + dy[i]) - fold(x[i], y[i]));
+    }
+}
+
+void add_shape(const Piece& piece, const float* x, const float* y, const float* dx,
+               const float* dy, std::size_t n, float* out_y, float* out_z) {
+    if (!piece.exists()) return;
+    // A Gaussian blur adds the variance times half the second derivative.
+    const float variance = piece.noise * piece.noise;
+    const float* c = piece.coefficients;
+    const float bend_y = piece.is_curve() ? variance * c[2] : 0.0F;
+    const float bend_z = variance * (piece.is_curve() ? c[6] : c[3] + c[5]);
+    for (std::size_t i = 0; i < n; ++i) out_y[i] -= bend_y;
+    for (std::size_t i = 0; i < n; ++i) out_z[i] -= bend_z;
+    if (piece.crease.slope == 0) return;
+    for (std::size_t i = 0; i < n; ++i) {
+        const float d = piece.crease.signed_distance(x[i] + dx[i], y[i] + dy[i]);
+        out_z[i] += piece.crease.slope * (std::abs(d) - blur(d, piece.noise).distance);
+    }
+}
+
 void flatten(const Piece& piece, TargetArea& target) {
     if (!piece.exists()) return;
-    for (std::size_t i = 0; i < target.size; ++i) {
-        const float x = target.x[i];
-        if (piece.is_curve()) {
-            target.y[i] -= cubic(piece.coefficients, x);
-            target.z[i] -= cubic(piece.coefficients + 4, x);
-        } else {
-            target.z[i] -= height(piece, x, target.y[i]);
+    if (piece.is_curve() || piece.crease.slope != 0) {
+        for (std::size_t i = 0; i < target.size; ++i) {
+            const Eigen::Vector3f mean = piece.mean(target.x[i], target.y[i]);
+            target.y[i] -= mean.y();
+            target.z[i] -= mean.z();
         }
+        return;
     }
+    kernels::subtract_parabola(piece.coefficients, target.x.data(), target.y.data(), target.size,
+                               target.z.data());
 }
 
 void keep_members(const Piece& piece, float share, TargetArea& target) {

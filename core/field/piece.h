@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "core/base/crease_kernels.h"
 #include "core/field/local_probing_field.h"
 #include "core/field/target_area.h"
 
@@ -60,6 +61,18 @@ struct Piece {
     /// a surface.
     [[nodiscard]] float squared_offset(float x, float y, float z) const;
 };
+
+/// A surface with a crease, for kernels.
+[[nodiscard]] kernels::CreasedSurface creased_surface(const Piece& piece);
+
+/// Adds to out how the mean of the noisy points changes from n places (x, y) to others that lie
+/// (dx, dy) further, times `sign`. @param out_y used on curves alone
+void add_mean_change(const Piece& piece, float sign, const float* x, const float* y,
+                     const float* dx, const float* dy, std::size_t n, float* out_y, float* out_z);
+
+/// Adds to out what leads from the mean to the shape at n places (x + dx, y + dy).
+void add_shape(const Piece& piece, const float* x, const float* y, const float* dx,
+               const float* dy, std::size_t n, float* out_y, float* out_z);
 
 /// From the piece's axes to coordinates in which the mean of its points is flat.
 void flatten(const Piece& piece, TargetArea& target);

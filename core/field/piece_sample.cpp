@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/base/crease_kernels.h"
 #include "core/base/kernels.h"
 
 namespace lpf {
@@ -27,28 +28,27 @@ void PieceSample::assign(const TargetArea& target, std::size_t most, float first
     ball_radius_.push_back(extent);
 
     // A counting sort by rings keeps the order within each.
-    const auto ring_of = [&](float squared) {
-        std::size_t ring = 0;
-        while (ring + 1 < ball_radius_.size() &&
-               squared > ball_radius_[ring] * ball_radius_[ring]) {
-            ++ring;
-        }
-        return ring;
-    };
     squared_offset.resize(count);
     for (std::vector<float>* values : {&px, &py, &pz, &squared_distance, &x, &y, &z}) {
         values->resize(count);
     }
-    ball_end_.assign(ball_radius_.size(), 0);
     for (std::size_t i = 0, k = 0; i < target.size; i += stride, ++k) {
         squared_offset[k] =
             target.x[i] * target.x[i] + target.y[i] * target.y[i] + target.z[i] * target.z[i];
-        ++ball_end_[ring_of(squared_offset[k])];
     }
+    ring_.assign(count, 0);
+    for (std::size_t ring = 0; ring + 1 < ball_radius_.size(); ++ring) {
+        const float limit = ball_radius_[ring] * ball_radius_[ring];
+        for (std::size_t k = 0; k < count; ++k) {
+            ring_[k] += static_cast<std::uint32_t>(squared_offset[k] > limit);
+        }
+    }
+    ball_end_.assign(ball_radius_.size(), 0);
+    for (std::size_t k = 0; k < count; ++k) ++ball_end_[ring_[k]];
     std::size_t before = 0;
     for (std::size_t& end : ball_end_) before += std::exchange(end, before);
     for (std::size_t i = 0, k = 0; i < target.size; i += stride, ++k) {
-        const std::size_t at = ball_end_[ring_of(squared_offset[k])]++;
+        const std::size_t at = ball_end_[ring_[k]]++;
         px[at] = target.x[i];
         py[at] = target.y[i];
         pz[at] = target.z[i];
@@ -68,9 +68,12 @@ void PieceSample::measure(const Piece& piece, std::size_t count) {
     float* out = squared_offset.data();
     if (piece.is_curve()) {
         kernels::offsets_from_cubics(piece.coefficients, x.data(), y.data(), z.data(), count, out);
-    } else if (piece.crease.slope == 0 && piece.sheets[0] == 0) {
+    } else if (piece.sheets[0] == 0 && piece.crease.slope == 0) {
         kernels::offsets_from_parabola(piece.coefficients, x.data(), y.data(), z.data(), count,
                                        out);
+    } else if (piece.sheets[0] == 0) {
+        kernels::offsets_from_crease(creased_surface(piece), x.data(), y.data(), z.data(), count,
+                                     out);
     } else {
         for (std::size_t i = 0; i < count; ++i) out[i] = piece.squared_offset(x[i], y[i], z[i]);
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/field/piece.h"
@@ -50,6 +51,7 @@ private:
     float stride_ = 1.0F;
     std::vector<float> ball_radius_;
     std::vector<std::size_t> ball_end_;
+    std::vector<std::uint32_t> ring_;  // of each point of the target area
 };
 
 }  // namespace lpf

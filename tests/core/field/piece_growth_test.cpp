@@ -5,7 +5,7 @@
 #include <cmath>
 #include <functional>
 
-#include "core/field/blur.h"
+#include "core/base/blur.h"
 #include "tests/support/shapes.h"
 
 namespace lpf {

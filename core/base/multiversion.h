@@ -1,0 +1,20 @@
+#pragma once
+
+// One binary runs on every x86-64 and uses what the machine has. Elsewhere, and under sanitizers,
+// the plain loops are compiled once.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(LPF_NO_MULTIVERSION)
+#define LPF_MULTIVERSION \
+    __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
+#else
+#define LPF_MULTIVERSION
+#endif
+
+namespace lpf::kernels {
+
+// For loops with choices that the compiler would make branches of. A lane is a float of any vector
+// unit: the compiler cuts these into as many registers as it takes.
+inline constexpr int kLanes = 16;
+typedef float Floats __attribute__((vector_size(4 * kLanes)));
+typedef int Ints __attribute__((vector_size(4 * kLanes)));
+
+}  // namespace lpf::kernels

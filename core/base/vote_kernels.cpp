@@ -1,0 +1,159 @@
+#include "core/base/vote_kernels.h"
+
+#include "core/base/exponential.h"
+#include "core/base/multiversion.h"
+
+namespace lpf::kernels {
+namespace {
+
+inline float within(float value, float limit) {
+    const float least = value > 0 ? value : 0;
+    return least < limit ? least : limit;
+}
+
+inline float parabola(const float* c, float x, float y) {
+    return c[0] + x * (c[1] + x * c[3] + y * c[4]) + y * (c[2] + y * c[5]);
+}
+
+inline float cubic(const float* c, float x) { return c[0] + x * (c[1] + x * (c[2] + x * c[3])); }
+
+}  // namespace
+
+LPF_MULTIVERSION
+void read_image(const Image& image, int planes, const float* x, const float* y, std::size_t n,
+                float* const* out) {
+    const int columns = image.columns;
+    const auto last_column = static_cast<float>(columns - 1);
+    const auto last_row = static_cast<float>(image.rows - 1);
+    for (int plane = 0; plane < planes; ++plane) {
+        const float* const values = image.values + plane * columns * image.rows;
+        float* const to = out[plane];
+#pragma omp simd
+        for (std::size_t i = 0; i < n; ++i) {
+            const float column = within(x[i] * image.scale_x + image.offset_x, last_column);
+            const float row = within(y[i] * image.scale_y + image.offset_y, last_row);
+            int left = static_cast<int>(column);
+            int low = static_cast<int>(row);
+            left = left < columns - 2 ? left : columns - 2;
+            low = low < image.rows - 2 ? low : image.rows - 2;
+            const float right = column - static_cast<float>(left);
+            const float up = row - static_cast<float>(low);
+            const int at = low * columns + left;
+            const float lower = values[at] + right * (values[at + 1] - values[at]);
+            const float upper = values[at + columns] +
+                                right * (values[at + columns + 1] - values[at + columns]);
+            to[i] = lower + up * (upper - lower);
+        }
+    }
+}
+
+LPF_MULTIVERSION
+void add_parabola_change(const float c[6], float sign, const float* x, const float* y,
+                         const float* dx, const float* dy, std::size_t n, float* out) {
+#pragma omp simd
+    for (std::size_t i = 0; i < n; ++i) {
+        out[i] += sign * (parabola(c, x[i] + dx[i], y[i] + dy[i]) - parabola(c, x[i], y[i]));
+    }
+}
+
+LPF_MULTIVERSION
+void add_cubic_change(const float c[4], float sign, const float* x, const float* dx, std::size_t n,
+                      float* out) {
+#pragma omp simd
+    for (std::size_t i = 0; i < n; ++i) out[i] += sign * (cubic(c, x[i] + dx[i]) - cubic(c, x[i]));
+}
+
+LPF_MULTIVERSION
+void add_to_image(const Image& image, const float* x, const float* y, const float* weight,
+                  std::size_t n, float* values) {
+    constexpr std::size_t kBlock = 64;
+    const int columns = image.columns;
+    const auto last_column = static_cast<float>(columns - 1);
+    const auto last_row = static_cast<float>(image.rows - 1);
+    int cell[kBlock];
+    float share[4][kBlock];
+    for (std::size_t begin = 0; begin < n; begin += kBlock) {
+        const std::size_t size = n - begin < kBlock ? n - begin : kBlock;
+#pragma omp simd
+        for (std::size_t i = 0; i < size; ++i) {
+            const float column = within(x[begin + i] * image.scale_x + image.offset_x, last_column);
+            const float row = within(y[begin + i] * image.scale_y + image.offset_y, last_row);
+            int left = static_cast<int>(column);
+            int low = static_cast<int>(row);
+            left = left < columns - 2 ? left : columns - 2;
+            low = low < image.rows - 2 ? low : image.rows - 2;
+            const float right = column - static_cast<float>(left);
+            const float up = row - static_cast<float>(low);
+            cell[i] = low * columns + left;
+            share[0][i] = weight[begin + i] * (1 - right) * (1 - up);
+            share[1][i] = weight[begin + i] * right * (1 - up);
+            share[2][i] = weight[begin + i] * (1 - right) * up;
+            share[3][i] = weight[begin + i] * right * up;
+        }
+        for (std::size_t i = 0; i < size; ++i) {
+            float* const at = values + cell[i];
+            at[0] += share[0][i];
+            at[1] += share[1][i];
+            at[columns] += share[2][i];
+            at[columns + 1] += share[3][i];
+        }
+    }
+}
+
+LPF_MULTIVERSION
+void rotate(const float axes[9], float* x, float* y, float* z, std::size_t n) {
+    const float a0 = axes[0], a1 = axes[1], a2 = axes[2];
+    const float a3 = axes[3], a4 = axes[4], a5 = axes[5];
+    const float a6 = axes[6], a7 = axes[7], a8 = axes[8];
+#pragma omp simd
+    for (std::size_t i = 0; i < n; ++i) {
+        const float px = x[i], py = y[i], pz = z[i];
+        x[i] = a0 * px + a1 * py + a2 * pz;
+        y[i] = a3 * px + a4 * py + a5 * pz;
+        z[i] = a6 * px + a7 * py + a8 * pz;
+    }
+}
+
+LPF_MULTIVERSION
+void weigh(const Weighing& how, const float* x, const float* y, const float* mx, const float* my,
+           const float* mz, std::size_t n, float* weight) {
+#pragma omp simd
+    for (std::size_t i = 0; i < n; ++i) {
+        const float inside = 1.0F - (x[i] * x[i] + y[i] * y[i]);
+        const float fade = how.fades ? inside * inside : 1.0F;
+        float density = weight[i] < 1.0F ? weight[i] : 1.0F;
+        density = density > how.least_density ? density : how.least_density;
+        const float squared = mx[i] * mx[i] + my[i] * my[i] + mz[i] * mz[i];
+        const float likelihood = exponential(-0.5F * how.precision * squared);
+        const float counted = how.reliability * fade * density * likelihood;
+        weight[i] = inside > 0.0F ? counted : 0.0F;
+    }
+}
+
+LPF_MULTIVERSION
+void add_votes(const unsigned* point, const float* weight, const float* mx, const float* my,
+               const float* mz, std::size_t n, float scale, float least, float largest,
+               std::int64_t* sums) {
+    constexpr std::size_t kBlock = 64;
+    std::int64_t votes[4][kBlock];
+    for (std::size_t begin = 0; begin < n; begin += kBlock) {
+        const std::size_t size = n - begin < kBlock ? n - begin : kBlock;
+#pragma omp simd
+        for (std::size_t i = 0; i < size; ++i) {
+            const std::size_t k = begin + i;
+            float counted = weight[k] > least ? weight[k] : least;
+            counted = counted < largest ? counted : largest;
+            counted = weight[k] > 0 ? scale * counted : 0;
+            votes[0][i] = static_cast<std::int64_t>(counted);
+            votes[1][i] = static_cast<std::int64_t>(counted * mx[k]);
+            votes[2][i] = static_cast<std::int64_t>(counted * my[k]);
+            votes[3][i] = static_cast<std::int64_t>(counted * mz[k]);
+        }
+        for (std::size_t i = 0; i < size; ++i) {
+            std::int64_t* const to = sums + std::size_t{4} * point[begin + i];
+            for (int c = 0; c < 4; ++c) to[c] += votes[c][i];
+        }
+    }
+}
+
+}  // namespace lpf::kernels
