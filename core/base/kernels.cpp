@@ -320,37 +320,4 @@ void nearest_to_nodes(const float* x, const float* y, std::size_t n, float first
     std::memcpy(point, &who, sizeof who);
 }
 
-LPF_MULTIVERSION
-std::size_t gather_ball(const double* x, const double* y, const double* z, std::size_t n,
-                        const double centre[3], double scale, float limit, std::size_t first,
-                        float* out_x, float* out_y, float* out_z, unsigned* out_index) {
-    const double cx = centre[0], cy = centre[1], cz = centre[2];
-    constexpr std::size_t kBlock = 32;
-    float dx[kBlock], dy[kBlock], dz[kBlock], squared[kBlock];
-    std::size_t kept = 0;
-    const auto measure = [&](std::size_t at, std::size_t i) {
-        dx[i] = static_cast<float>((x[at] - cx) * scale);
-        dy[i] = static_cast<float>((y[at] - cy) * scale);
-        dz[i] = static_cast<float>((z[at] - cz) * scale);
-        squared[i] = dx[i] * dx[i] + dy[i] * dy[i] + dz[i] * dz[i];
-    };
-    for (std::size_t begin = 0; begin < n; begin += kBlock) {
-        const std::size_t size = n - begin < kBlock ? n - begin : kBlock;
-        if (size == kBlock) {  // what long runs have of whole blocks goes in lanes
-#pragma omp simd
-            for (std::size_t i = 0; i < kBlock; ++i) measure(begin + i, i);
-        } else {
-            for (std::size_t i = 0; i < size; ++i) measure(begin + i, i);
-        }
-        for (std::size_t i = 0; i < size; ++i) {
-            out_x[kept] = dx[i];
-            out_y[kept] = dy[i];
-            out_z[kept] = dz[i];
-            out_index[kept] = static_cast<unsigned>(first + begin + i);
-            kept += static_cast<std::size_t>(squared[i] <= limit * limit);
-        }
-    }
-    return kept;
-}
-
 }  // namespace lpf::kernels

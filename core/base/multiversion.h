@@ -3,6 +3,7 @@
 // One binary runs on every x86-64 and uses what the machine has. Elsewhere, and under sanitizers,
 // the plain loops are compiled once.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(LPF_NO_MULTIVERSION)
+#define LPF_HAS_MULTIVERSION
 #define LPF_MULTIVERSION \
     __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
 #else

@@ -15,6 +15,9 @@ constexpr double kMaximumCells = 1 << 20;
 
 constexpr std::size_t kPointsPerChunk = 1U << 16U;
 
+/// Of a squared radius, so that no rounding loses a cell that the ball only touches.
+constexpr double kRoundingUp = 1 + 1e-6;
+
 constexpr Eigen::Index kSampleOfCells = 1 << 14;
 constexpr int kMostHalvings = 20;
 
@@ -181,19 +184,36 @@ void PointGrid::gather(const Eigen::Vector3d& centre, double unit, float reach,
                                             relative.data(), scale, reach, begin, &near.x[at],
                                             &near.y[at], &near.z[at], &near.index[at]);
     };
+    // How far the ball reaches past the cells of a row: what it leaves of them along x.
+    const auto beyond = [&](int axis, std::uint64_t cell) {
+        const double below = static_cast<double>(cell) / inverse_cell_ - relative[axis];
+        const double above = -below - 1 / inverse_cell_;
+        const double outside = std::max({below, above, 0.0});
+        return outside * outside;
+    };
     for (std::uint64_t z = low[2]; z <= high[2]; ++z) {
+        const double left_by_z = kRoundingUp * ball * ball - beyond(2, z);
+        if (left_by_z < 0) continue;
         auto row = rows_.begin() + slab_first_row_[z];
         const auto rows_end = rows_.begin() + slab_first_row_[z + 1];
         row = std::lower_bound(row, rows_end, low[1],
                                [](const Row& a, std::uint64_t y) { return a.y < y; });
         for (; row != rows_end && row->y <= high[1]; ++row) {
+            const double left = left_by_z - beyond(1, row->y);
+            if (left < 0) continue;
+            const double half = std::sqrt(left);
+            const double first_cell = (relative[0] - half) * inverse_cell_;
+            const double last_cell = (relative[0] + half) * inverse_cell_;
+            if (last_cell < 0) continue;
+            const auto first = static_cast<std::uint64_t>(std::max(first_cell, 0.0));
+            const auto last = static_cast<std::uint64_t>(last_cell);
             const auto cells_end = cells_.begin() + (row + 1)->first_cell;
-            const auto cell =
-                std::lower_bound(cells_.begin() + row->first_cell, cells_end, low[0],
-                                 [](const Cell& a, std::uint64_t x) { return a.x < x; });
-            auto last = cell;
-            while (last != cells_end && last->x <= high[0]) ++last;
-            if (cell != last) gather_run(cell->first_point, last->first_point);
+            const auto cell = std::lower_bound(
+                cells_.begin() + row->first_cell, cells_end, first,
+                [](const Cell& a, std::uint64_t x) { return a.x < x; });
+            auto end = cell;
+            while (end != cells_end && end->x <= last) ++end;
+            if (cell != end) gather_run(cell->first_point, end->first_point);
         }
     }
 }
