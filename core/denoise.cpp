@@ -1,6 +1,7 @@
 #include "core/denoise.h"
 
 #include <cmath>
+#include <numeric>
 
 #include "core/base/error.h"
 #include "core/field_set.h"
@@ -9,19 +10,25 @@
 namespace lpf {
 namespace {
 
+constexpr std::size_t kPointsPerChunk = 1U << 16U;
+
 /// Eq. 12, with q the current position: the full step, or the share gamma / (1 + gamma) of it.
 double step_share(double gamma) { return gamma > 0 ? gamma / (1 + gamma) : 1.0; }
 
 /// Moves the points to their consensus. @returns the RMS of the moves
 double move_points(const std::vector<std::uint32_t>& order, const Moves& moves, double step,
-                   Points& points) {
-    double squares = 0.0;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const Eigen::Vector3d move = step * moves[i].cast<double>();
-        points.col(order[i]) += move;
-        squares += move.squaredNorm();
-    }
-    return std::sqrt(squares / static_cast<double>(order.size()));
+                   Points& points, const Execution& execution) {
+    std::vector<double> squares(chunk_count(order.size(), kPointsPerChunk), 0.0);
+    parallel_for(execution, order.size(), kPointsPerChunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                     for (std::size_t i = begin; i < end; ++i) {
+                         const Eigen::Vector3d move = step * moves[i].cast<double>();
+                         points.col(order[i]) += move;
+                         squares[chunk] += move.squaredNorm();
+                     }
+                 });
+    const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
+    return std::sqrt(sum / static_cast<double>(order.size()));
 }
 
 void validate(const DenoiseParams& params) {
@@ -63,7 +70,8 @@ DenoiseResult denoise(const Shape& shape, const DenoiseParams& params, const Exe
             vote(fields, analysis, {.sharp = params.sharp, .noise = analysis_params.noise},
                  part_of(outer, 0.8, 1.0));
         const double step = step_share(params.gamma) * params.analysis.radius;
-        rms_moves.push_back(move_points(fields.grid().order(), moves, step, current.cloud.points));
+        rms_moves.push_back(
+            move_points(fields.grid().order(), moves, step, current.cloud.points, outer));
 
         const bool still = rms_moves.back() <= params.stop_ratio * rms_moves.front();
         if (i + 1 == params.iterations || (i > 0 && still) || rms_moves.back() == 0) {

@@ -11,7 +11,7 @@
 namespace lpf {
 namespace {
 
-constexpr std::size_t kFieldsPerChunk = 128;
+constexpr std::size_t kFieldsPerChunk = 32;
 
 /// Cells of this share of the radius make a ball of 1.1 radii span few cells with little waste.
 constexpr double kCellPerRadius = 0.55;

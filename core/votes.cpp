@@ -15,6 +15,8 @@ namespace {
 /// The error that no field's representation is trusted below [radius].
 constexpr float kErrorFloor = 1e-4F;
 
+constexpr std::size_t kPointsPerChunk = 1U << 16U;
+
 /// A vote counts so much where no points of the LPF lie.
 constexpr float kLeastDensity = 0.001F;
 
@@ -187,10 +189,13 @@ Moves vote(const FieldSet& fields, const AnalysisResult& analysis, const VotePar
         Ballot ballot(fields.grid().size());
         Round(fields, analysis, params, before, width).run(ballot, part);
         Moves moves(fields.grid().size());
-        for (std::size_t i = 0; i < moves.size(); ++i) {
-            moves[i] = ballot.outcome(i).cast<float>();
-            if (before) moves[i] += (*before)[i];
-        }
+        parallel_for(execution, moves.size(), kPointsPerChunk,
+                     [&](std::size_t begin, std::size_t end, std::size_t) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                             moves[i] = ballot.outcome(i).cast<float>();
+                             if (before) moves[i] += (*before)[i];
+                         }
+                     });
         return moves;
     };
     const Moves first = decide(nullptr, kFirstWidth * params.noise, part_of(execution, 0.0, 0.5));

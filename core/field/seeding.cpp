@@ -50,7 +50,8 @@ constexpr int kShifts = 3;
 constexpr float kCaredWithin = 1.5F;
 constexpr double kCaredShare = 0.7;
 
-constexpr std::size_t kSeedsPerChunk = 64;
+constexpr std::size_t kSeedsPerChunk = 32;
+constexpr std::size_t kPointsPerChunk = 1U << 16U;
 
 using Indices = std::vector<std::uint32_t>;
 
@@ -76,11 +77,12 @@ struct Trial {
 /// taken care of by seeds of the next smaller radius.
 class Seeding {
 public:
-    Seeding(const Points& points, const PointGrid& grid, const SeedingParams& params)
+    Seeding(const Points& points, const PointGrid& grid, const SeedingParams& params,
+            const Execution& execution)
         : points_(points),
           grid_(grid),
           params_(params),
-          place_(grid.places()),
+          place_(grid.places(execution)),
           care_(grid.size(), kOpen) {}
 
     Seeds run(const Execution& execution) {
@@ -112,12 +114,24 @@ private:
         return radii;
     }
 
+    /// Of the points that nothing takes care of, in the order of the input.
+    [[nodiscard]] Indices open_places(const Execution& execution) const {
+        std::vector<Indices> parts(chunk_count(place_.size(), kPointsPerChunk));
+        parallel_for(execution, place_.size(), kPointsPerChunk,
+                     [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                             if (care_[place_[i]] == kOpen) parts[chunk].push_back(place_[i]);
+                         }
+                     });
+        Indices open;
+        for (const Indices& part : parts) open.insert(open.end(), part.begin(), part.end());
+        return open;
+    }
+
     void reopen_tried() { std::replace(care_.begin(), care_.end(), kTried, kOpen); }
 
     void place(const Trial& trial, const Execution& execution) {
-        Indices open;  // places, in the order of the input
-        std::ranges::copy_if(place_, std::back_inserter(open),
-                             [&](std::uint32_t place) { return care_[place] == kOpen; });
+        const Indices open = open_places(execution);
         if (open.empty()) return;
         const Indices chosen = poisson_disk_subset(grid_, open, params_.spacing * trial.radius,
                                                    params_.random_seed, execution);
@@ -337,7 +351,7 @@ private:
 
 Seeds place_seeds(const Points& points, const PointGrid& grid, const SeedingParams& params,
                   const Execution& execution) {
-    return Seeding(points, grid, params).run(execution);
+    return Seeding(points, grid, params, execution).run(execution);
 }
 
 }  // namespace lpf

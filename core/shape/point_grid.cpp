@@ -18,7 +18,7 @@ constexpr std::size_t kPointsPerChunk = 1U << 16U;
 /// Of a squared radius, so that no rounding loses a cell that the ball only touches.
 constexpr double kRoundingUp = 1 + 1e-6;
 
-constexpr Eigen::Index kSampleOfCells = 1 << 14;
+constexpr Eigen::Index kSampleOfCells = 1 << 12;
 constexpr int kMostHalvings = 20;
 
 /// How many of the other keys equal a key, on average.
@@ -153,11 +153,14 @@ void PointGrid::index_cells(const std::vector<Keyed<Key>>& sorted, const Executi
     cells_.push_back({~0U, static_cast<std::uint32_t>(order_.size())});
 }
 
-std::vector<std::uint32_t> PointGrid::places() const {
+std::vector<std::uint32_t> PointGrid::places(const Execution& execution) const {
     std::vector<std::uint32_t> places(order_.size());
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        places[order_[i]] = static_cast<std::uint32_t>(i);
-    }
+    parallel_for(execution, places.size(), kPointsPerChunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                     for (std::size_t i = begin; i < end; ++i) {
+                         places[order_[i]] = static_cast<std::uint32_t>(i);
+                     }
+                 });
     return places;
 }
 

@@ -37,7 +37,7 @@ public:
     [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
 
     /// places()[i] = where input point i is in that order.
-    [[nodiscard]] std::vector<std::uint32_t> places() const;
+    [[nodiscard]] std::vector<std::uint32_t> places(const Execution& execution = {}) const;
 
     /// Position of the i-th sorted point [input length].
     [[nodiscard]] Eigen::Vector3d point(std::size_t i) const {

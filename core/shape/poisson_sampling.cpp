@@ -45,6 +45,10 @@ private:
 
 constexpr std::size_t kPointsPerChunk = 1U << 16U;
 
+/// Random places of large clouds are far away in memory: they are fetched so many points before
+/// they are looked at.
+constexpr std::size_t kAhead = 24;
+
 /// The largest float below 1: a point just at the spacing may stay.
 constexpr float kInside = 0x1.fffffep-1F;
 
@@ -91,14 +95,19 @@ std::vector<std::uint32_t> poisson_disk_subset(const PointGrid& grid,
     std::vector<std::uint8_t> is_covered(grid.size(), 0);
     NearPoints disk;
     const Permutation permutation(places.size(), random_seed);
+    std::vector<std::size_t> next(std::min(kPointsPerChunk, places.size()));
     // Each choice depends on those before: one thread, in chunks for cancellation and progress.
     parallel_for(on_one_thread(execution), "seeds", "points", places.size(), kPointsPerChunk,
                  [&](std::size_t begin, std::size_t end, std::size_t) {
+                     for (std::size_t i = begin; i < end; ++i) next[i - begin] = permutation[i];
                      for (std::size_t i = begin; i < end; ++i) {
-                         const auto k = static_cast<std::uint32_t>(permutation[i]);
+                         const auto ahead = std::min(i + kAhead, end - 1) - begin;
+                         __builtin_prefetch(&is_covered[places[next[ahead]]]);
+                         const std::size_t k = next[i - begin];
                          if (is_covered[places[k]]) continue;
-                         chosen.push_back(k);
+                         chosen.push_back(static_cast<std::uint32_t>(k));
                          grid.gather(grid.point(places[k]), spacing, kInside, disk);
+                         is_covered[places[k]] = 1;
                          for (std::size_t p = 0; p < disk.size; ++p) is_covered[disk.index[p]] = 1;
                      }
                  });
