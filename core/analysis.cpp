@@ -94,45 +94,76 @@ private:
         const std::vector<float> gram = dictionary_.gram();
         std::vector<FieldEnergy> chunk_energy(fields_.chunks());
         residuals_.assign(fields_.size(), 0.0F);
-        fields_.for_each_probed(
+        fields_.for_each_block(
             phase, execution, dictionary_.atoms(),
-            [&](std::size_t j, FieldSet::Worker& worker, std::size_t chunk) {
+            [&](FieldSet::Block& block, std::size_t chunk) {
                 FieldEnergy& energy = chunk_energy[chunk];
-                const std::span<float> code = codes_[j];
-                previous_.decode(code, worker.decoded);
-                energy.before += field_energy(j, worker, code);
-
-                coder_.encode(dictionary_, gram, worker.field, worker.correlations, code,
-                              fields_.lambda_share(j));
-                if (!move && params_.debias) debias({gram, worker.correlations, 0.0F}, code);
-                dictionary_.decode(code, worker.decoded);
-                residuals_[j] = residual(worker);
-                const double learned = field_energy(j, worker, code);
-                energy.learning += learned;
-                if (!move || fields_.pose_is_fixed(j)) {
-                    energy.pose += learned;
-                    return;
+                decode(previous_, block);
+                for (std::size_t i = 0; i < block.count; ++i) {
+                    energy.before += field_energy(block, i);
                 }
-
-                const RigidFit fit =
-                    fit_pose(dictionary_.pattern(), worker.field.data(), worker.decoded.data());
-                apply_pose(fit, fields_.frames[j]);
-                move_field(dictionary_.pattern(), fit, worker.field.data());
-                energy.pose += field_energy(j, worker, code);
+                encode(gram, block, !move && params_.debias);
+                decode(dictionary_, block);
+                for (std::size_t i = 0; i < block.count; ++i) {
+                    residuals_[block.number[i]] = residual(block, i);
+                    const double learned = field_energy(block, i);
+                    energy.learning += learned;
+                    const bool stays = !move || fields_.pose_is_fixed(block.number[i]);
+                    if (!stays) pose(block, i);
+                    energy.pose += stays ? learned : field_energy(block, i);
+                }
             });
         record(chunk_energy, move);
     }
 
-    [[nodiscard]] double field_energy(std::size_t j, const FieldSet::Worker& worker,
-                                      std::span<const float> code) const {
-        return static_cast<double>(kernels::squared_distance(
-                   worker.field.data(), worker.decoded.data(), worker.field.size())) +
-               params_.lambda * static_cast<double>(fields_.lambda_share(j)) * l1_norm(code);
+    /// D alpha of each.
+    void decode(const Dictionary& dictionary, FieldSet::Block& block) {
+        const std::size_t d = codes_atoms();
+        for (std::size_t i = 0; i < block.count; ++i) {
+            std::ranges::copy(codes_[block.number[i]],
+                              block.codes.begin() + static_cast<std::ptrdiff_t>(i * d));
+        }
+        dictionary.decode_all(std::span(block.codes).first(block.count * d), block.decoded);
     }
 
-    [[nodiscard]] float residual(const FieldSet::Worker& worker) const {
-        return std::sqrt(kernels::squared_distance(worker.field.data(), worker.decoded.data(),
-                                                   worker.field.size()) /
+    void encode(const std::vector<float>& gram, FieldSet::Block& block, bool debiased) {
+        const std::size_t d = codes_atoms();
+        Coder::correlate(dictionary_,
+                         std::span(block.fields).first(block.count * dictionary_.stride()),
+                         block.correlations);
+        for (std::size_t i = 0; i < block.count; ++i) {
+            const std::size_t j = block.number[i];
+            const auto correlations = std::span(block.correlations).subspan(i * d, d);
+            coder_.solve(gram, correlations, codes_[j], fields_.lambda_share(j));
+            if (debiased) debias({gram, correlations, 0.0F}, codes_[j]);
+        }
+    }
+
+    /// Moves LPF and field to where they fit the code best.
+    void pose(FieldSet::Block& block, std::size_t i) {
+        float* field = block.field(i).data();
+        const RigidFit fit = fit_pose(dictionary_.pattern(), field, block.decoded_field(i).data());
+        apply_pose(fit, fields_.frames[block.number[i]]);
+        move_field(dictionary_.pattern(), fit, field);
+    }
+
+    [[nodiscard]] std::size_t codes_atoms() const {
+        return static_cast<std::size_t>(codes_.atoms());
+    }
+
+    [[nodiscard]] static float squared_distance(FieldSet::Block& block, std::size_t i) {
+        return kernels::squared_distance(block.field(i).data(), block.decoded_field(i).data(),
+                                         block.field(i).size());
+    }
+
+    [[nodiscard]] double field_energy(FieldSet::Block& block, std::size_t i) const {
+        const std::size_t j = block.number[i];
+        return static_cast<double>(squared_distance(block, i)) +
+               params_.lambda * static_cast<double>(fields_.lambda_share(j)) * l1_norm(codes_[j]);
+    }
+
+    [[nodiscard]] float residual(FieldSet::Block& block, std::size_t i) const {
+        return std::sqrt(squared_distance(block, i) /
                          static_cast<float>(dictionary_.pattern().size()));
     }
 

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kFieldsPerChunk = 32;
 
 /// Cells of this share of the radius make a ball of 1.1 radii span few cells with little waste.
-constexpr double kCellPerRadius = 0.55;
+constexpr double kCellPerRadius = 1.0;
 
 /// Samples of a mesh lie this close, so that no triangle of a target area is missed.
 constexpr double kMeshSampleSpacing = 0.1;
@@ -122,14 +122,39 @@ void FieldSet::gather_ball(std::size_t j, TargetArea& target) const {
     flatten(pieces[j], target);
 }
 
-void FieldSet::probe(std::size_t j, Worker& worker) const {
-    gather(j, worker.probe.target);
-    operator_->probe(frames[j], dimensions[j] == kCurve, worker.probe, worker.field.data());
+void FieldSet::probe(std::size_t j, ProbeScratch& scratch, float* field) const {
+    gather(j, scratch.target);
+    operator_->probe(frames[j], dimensions[j] == kCurve, scratch, field);
     if (pieces[j].is_curve()) {
         // The field starts from the curve, not from the plane: no atom is needed to get there.
         const auto padded = static_cast<std::size_t>(pattern_.padded_size());
-        kernels::add_scaled(1.0F, pattern_.channel(1), worker.field.data() + padded, padded);
+        kernels::add_scaled(1.0F, pattern_.channel(1), field + padded, padded);
     }
+}
+
+void FieldSet::for_each_block(std::string_view phase, const Execution& execution, int atoms,
+                              const BlockBody& body) const {
+    parallel_for(execution, phase, "fields", size(), kFieldsPerChunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                     const std::size_t stride =
+                         3 * static_cast<std::size_t>(pattern_.padded_size());
+                     ProbeScratch scratch;
+                     Block block;
+                     block.fields.resize(kFieldsOfBlock * stride);
+                     block.decoded.resize(kFieldsOfBlock * stride);
+                     block.correlations.resize(kFieldsOfBlock * static_cast<std::size_t>(atoms));
+                     block.codes.resize(block.correlations.size());
+                     for (std::size_t j = begin; j < end; ++j) {
+                         if (dimensions[j] != kTooFewPoints) {
+                             probe(j, scratch, block.field(block.count).data());
+                             block.number[block.count++] = j;
+                         }
+                         const bool is_full = block.count == kFieldsOfBlock || j + 1 == end;
+                         if (!is_full || block.count == 0) continue;
+                         body(block, chunk);
+                         block.count = 0;
+                     }
+                 });
 }
 
 void FieldSet::for_each_probed(std::string_view phase, const Execution& execution, int atoms,
@@ -139,7 +164,7 @@ void FieldSet::for_each_probed(std::string_view phase, const Execution& executio
                      Worker worker = make_worker(atoms);
                      for (std::size_t j = begin; j < end; ++j) {
                          if (dimensions[j] == kTooFewPoints) continue;
-                         probe(j, worker);
+                         probe(j, worker.probe, worker.field.data());
                          body(j, worker, chunk);
                      }
                  });
@@ -190,7 +215,7 @@ std::vector<float> FieldSet::probe_sample(const std::vector<std::size_t>& sample
                  [&](std::size_t begin, std::size_t end, std::size_t) {
                      Worker worker = make_worker(0);
                      for (std::size_t i = begin; i < end; ++i) {
-                         probe(sample[i], worker);
+                         probe(sample[i], worker.probe, worker.field.data());
                          std::ranges::copy(
                              worker.field,
                              fields.begin() + static_cast<std::ptrdiff_t>(i * stride));
@@ -208,7 +233,7 @@ void FieldSet::optimise_poses(int passes, const Execution& execution) {
                          Worker worker = make_worker(0);
                          for (std::size_t j = begin; j < end; ++j) {
                              if (dimensions[j] == kTooFewPoints || pose_is_fixed(j)) continue;
-                             probe(j, worker);
+                             probe(j, worker.probe, worker.field.data());
                              apply_pose(fit_pose(pattern_, worker.field.data(),
                                                  worker.decoded.data()),
                                         frames[j]);

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include "core/field/piece.h"
 #include "core/field/probing.h"
 #include "core/field/target_area.h"
+#include "core/learn/dictionary_learning.h"
 
 namespace lpf {
 
@@ -36,6 +39,30 @@ public:
     /// @param atoms room for that many correlations in the worker
     void for_each_probed(std::string_view phase, const Execution& execution, int atoms,
                          const Body& body) const;
+
+    /// LPFs that are worked on together, `count` of them, freshly probed.
+    struct Block {
+        std::array<std::size_t, kFieldsOfBlock> number;  ///< of each in the set
+        std::size_t count = 0;
+        std::vector<float> fields;        ///< V_j, one behind the other
+        std::vector<float> decoded;       ///< D alpha_j, alike
+        std::vector<float> correlations;  ///< d for each
+        std::vector<float> codes;         ///< d for each
+
+        [[nodiscard]] std::span<float> field(std::size_t i) { return part(fields, i); }
+        [[nodiscard]] std::span<float> decoded_field(std::size_t i) { return part(decoded, i); }
+
+    private:
+        [[nodiscard]] static std::span<float> part(std::vector<float>& all, std::size_t i) {
+            const std::size_t size = all.size() / kFieldsOfBlock;
+            return std::span(all).subspan(i * size, size);
+        }
+    };
+
+    /// The same, block by block.
+    using BlockBody = std::function<void(Block& block, std::size_t chunk)>;
+    void for_each_block(std::string_view phase, const Execution& execution, int atoms,
+                        const BlockBody& body) const;
 
     /// The same for all LPFs and without probing: only the target area is gathered.
     void for_each_target(std::string_view phase, const Execution& execution,
@@ -82,7 +109,7 @@ private:
     using Gather = void (FieldSet::*)(std::size_t j, TargetArea& target) const;
     void for_each_gathered(std::string_view phase, const Execution& execution, const Body& body,
                            Gather gather_points) const;
-    void probe(std::size_t j, Worker& worker) const;
+    void probe(std::size_t j, ProbeScratch& scratch, float* field) const;
 
     Pattern pattern_;
     MeshSamples samples_;  // of a mesh that is probed as one

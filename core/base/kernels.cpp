@@ -7,6 +7,18 @@
 #include "core/base/multiversion.h"
 
 namespace lpf::kernels {
+namespace {
+
+inline float sum_of_lanes(const Floats& values) {
+    float lanes[kLanes];
+    std::memcpy(lanes, &values, sizeof lanes);
+    float sum = 0.0F;
+#pragma omp simd reduction(+ : sum)
+    for (int lane = 0; lane < kLanes; ++lane) sum += lanes[lane];
+    return sum;
+}
+
+}  // namespace
 
 LPF_MULTIVERSION
 float dot(const float* a, const float* b, std::size_t n) {
@@ -45,13 +57,42 @@ void multiply_rows(const float* rows, std::size_t row_count, std::size_t n, cons
         }
         const Floats sums[kRows] = {s0, s1, s2, s3, s4, s5, s6, s7};
         for (std::size_t k = 0; k < count; ++k) {
-            float lanes[kLanes];
-            std::memcpy(lanes, &sums[k], sizeof lanes);
-            float sum = 0.0F;
-#pragma omp simd reduction(+ : sum)
-            for (int lane = 0; lane < kLanes; ++lane) sum += lanes[lane];
+            float sum = sum_of_lanes(sums[k]);
             for (std::size_t i = whole; i < n; ++i) sum += row[k][i] * v[i];
             out[first + k] = sum;
+        }
+    }
+}
+
+LPF_MULTIVERSION
+void multiply_rows_with_all(const float* rows, std::size_t row_count, std::size_t n,
+                            const float* v, std::size_t v_count, float* out) {
+    // Four rows stay in the first cache while all v pass by, two at a time.
+    const std::size_t whole = n - n % kLanes;
+    for (std::size_t first = 0; first < row_count; first += 4) {
+        const std::size_t rows_left = row_count - first < 4 ? row_count - first : 4;
+        const float* row[4];
+        for (std::size_t k = 0; k < 4; ++k) row[k] = rows + (first + k % rows_left) * n;
+        for (std::size_t j = 0; j < v_count; j += 2) {
+            const std::size_t v_left = v_count - j < 2 ? 1 : 2;
+            const float* with[2] = {v + j * n, v + (j + v_left - 1) * n};
+            Floats s0{}, s1{}, s2{}, s3{}, t0{}, t1{}, t2{}, t3{};
+            for (std::size_t i = 0; i < whole; i += kLanes) {
+                Floats a, b, from[4];
+                std::memcpy(&a, with[0] + i, sizeof a);
+                std::memcpy(&b, with[1] + i, sizeof b);
+                for (int k = 0; k < 4; ++k) std::memcpy(&from[k], row[k] + i, sizeof a);
+                s0 += from[0] * a, s1 += from[1] * a, s2 += from[2] * a, s3 += from[3] * a;
+                t0 += from[0] * b, t1 += from[1] * b, t2 += from[2] * b, t3 += from[3] * b;
+            }
+            const Floats sums[2][4] = {{s0, s1, s2, s3}, {t0, t1, t2, t3}};
+            for (std::size_t l = 0; l < v_left; ++l) {
+                for (std::size_t k = 0; k < rows_left; ++k) {
+                    float sum = sum_of_lanes(sums[l][k]);
+                    for (std::size_t i = whole; i < n; ++i) sum += row[k][i] * with[l][i];
+                    out[(j + l) * row_count + first + k] = sum;
+                }
+            }
         }
     }
 }
@@ -63,8 +104,8 @@ void add_scaled(float scale, const float* in, float* out, std::size_t n) {
 }
 
 LPF_MULTIVERSION
-void combine_rows(const float* rows, std::size_t n, const unsigned* row, const float* coefficient,
-                  std::size_t count, float* out) {
+void combine_rows(const float* rows, std::size_t stride, std::size_t n, const unsigned* row,
+                  const float* coefficient, std::size_t count, float* out) {
     // A block of outputs stays in registers while all rows pass over it.
     constexpr std::size_t kVectors = 4;
     constexpr std::size_t kBlock = kVectors * kLanes;
@@ -73,7 +114,7 @@ void combine_rows(const float* rows, std::size_t n, const unsigned* row, const f
         Floats s0{}, s1{}, s2{}, s3{};
         for (std::size_t k = 0; k < count; ++k) {
             Floats from[kVectors];
-            std::memcpy(from, rows + row[k] * n + begin, sizeof from);
+            std::memcpy(from, rows + row[k] * stride + begin, sizeof from);
             s0 += coefficient[k] * from[0];
             s1 += coefficient[k] * from[1];
             s2 += coefficient[k] * from[2];
@@ -86,20 +127,20 @@ void combine_rows(const float* rows, std::size_t n, const unsigned* row, const f
         Floats sum{};
         for (std::size_t k = 0; k < count; ++k) {
             Floats from;
-            std::memcpy(&from, rows + row[k] * n + begin, sizeof from);
+            std::memcpy(&from, rows + row[k] * stride + begin, sizeof from);
             sum += coefficient[k] * from;
         }
         std::memcpy(out + begin, &sum, sizeof sum);
     }
     for (; begin < n; ++begin) {
         float sum = 0;
-        for (std::size_t k = 0; k < count; ++k) sum += coefficient[k] * rows[row[k] * n + begin];
+        for (std::size_t k = 0; k < count; ++k) sum += coefficient[k] * rows[row[k] * stride + begin];
         out[begin] = sum;
     }
 }
 
 LPF_MULTIVERSION
-void solve_definite(double* a, std::size_t n, double* b) {
+void solve_definite(double* a, std::size_t n, double* x) {
     constexpr double kDependent = 1e-6;  // share of its diagonal under which a pivot is rounding
     const std::size_t stride = padded_row(n);
     double* const inverse = a + n * stride;
@@ -110,9 +151,8 @@ void solve_definite(double* a, std::size_t n, double* b) {
         for (std::size_t i = k + 1; i < n; ++i) {
             const double factor = pivots[i] * inverse[k];
             double* const row = a + i * stride;
-            b[i] -= factor * b[k];
             // What lies left of the diagonal is changed, too, and never read.
-            for (std::size_t begin = i / kRowBlock * kRowBlock; begin < n; begin += kRowBlock) {
+            for (std::size_t begin = i / kRowBlock * kRowBlock; begin <= n; begin += kRowBlock) {
 #pragma omp simd
                 for (std::size_t j = 0; j < kRowBlock; ++j) {
                     row[begin + j] -= factor * pivots[begin + j];
@@ -121,11 +161,9 @@ void solve_definite(double* a, std::size_t n, double* b) {
         }
     }
     for (std::size_t k = n; k-- > 0;) {
-        double sum = 0;
-        const double* const row = a + k * stride;
-#pragma omp simd reduction(+ : sum)
-        for (std::size_t j = k + 1; j < n; ++j) sum += row[j] * b[j];
-        b[k] = (b[k] - sum) * inverse[k];
+        double sum = a[k * stride + n];
+        for (std::size_t j = k + 1; j < n; ++j) sum -= a[k * stride + j] * x[j];
+        x[k] = sum * inverse[k];
     }
 }
 

@@ -16,25 +16,31 @@ float squared_distance(const float* a, const float* b, std::size_t n);
 void multiply_rows(const float* rows, std::size_t row_count, std::size_t n, const float* v,
                    float* out);
 
+/// The same for several vectors v, one behind the other: out[j row_count + k] = row k . v_j.
+void multiply_rows_with_all(const float* rows, std::size_t row_count, std::size_t n,
+                            const float* v, std::size_t v_count, float* out);
+
 /// out[i] += scale * in[i].
 void add_scaled(float scale, const float* in, float* out, std::size_t n);
 
-/// out = sum of coefficient[i] times row[i], i < count; rows of n floats each, by their numbers.
-void combine_rows(const float* rows, std::size_t n, const unsigned* row, const float* coefficient,
-                  std::size_t count, float* out);
+/// out = sum of coefficient[i] times row[i], i < count; rows by their numbers, `stride` floats from
+/// one to the next, of which n are combined.
+void combine_rows(const float* rows, std::size_t stride, std::size_t n, const unsigned* row,
+                  const float* coefficient, std::size_t count, float* out);
 
 inline constexpr std::size_t kRowBlock = 8;
 
-/// Columns that a row of n doubles takes in solve_definite.
+/// Columns that a row of solve_definite takes, and doubles that it needs in all.
 [[nodiscard]] constexpr std::size_t padded_row(std::size_t n) {
-    return (n + kRowBlock - 1) / kRowBlock * kRowBlock;
+    return n / kRowBlock * kRowBlock + kRowBlock;
 }
+[[nodiscard]] constexpr std::size_t room_to_solve(std::size_t n) { return (n + 1) * padded_row(n); }
 
-/// Solves the symmetric positive definite A x = b, in place of b. Unknowns that depend linearly on
-/// those before them become 0.
-/// @param a n rows of padded_row(n) values, of which those from the diagonal on are read, and one
-/// more row to work in; destroyed
-void solve_definite(double* a, std::size_t n, double* b);
+/// Solves the symmetric positive definite A x = b. Unknowns that depend linearly on those before
+/// them become 0.
+/// @param a n rows of padded_row(n) values: those of A from the diagonal on, b, and zeros. Destroyed;
+/// has room for one more row
+void solve_definite(double* a, std::size_t n, double* x);
 
 /// One sweep of coordinate descent on |V - D a|^2 + 2 threshold |a|_1 over the atoms listed.
 /// @param gram of D, d x d  @param inverse_diagonal of gram, 0 for an atom of norm 0
@@ -90,10 +96,12 @@ void convolve(const float* in, float* out, std::size_t n, int stride, const floa
 void nearest_to_nodes(const float* x, const float* y, std::size_t n, float first_x, float step,
                       float row_y, float squared[16], int point[16]);
 
+inline constexpr std::size_t kGatherSlack = 16;
+
 /// Appends to the outputs the points of a run that lie within `limit` of the centre.
 /// dx = float((x[i] - centre[0]) * scale) and so on; kept when dx^2 + dy^2 + dz^2 <= limit^2.
 /// @param first index of the first point of the run  @returns how many were appended
-/// The outputs need room for n more values each.
+/// The outputs need room for n + kGatherSlack more values each.
 std::size_t gather_ball(const double* x, const double* y, const double* z, std::size_t n,
                         const double centre[3], double scale, float limit, std::size_t first,
                         float* out_x, float* out_y, float* out_z, unsigned* out_index);

@@ -9,6 +9,24 @@
 #include "core/learn/lasso.h"
 
 namespace lpf {
+namespace {
+
+/// The part of a code that counts.
+struct NonZero {
+    std::array<unsigned, kMaxAtoms> atom;
+    std::array<float, kMaxAtoms> coefficient;
+    std::size_t count = 0;
+
+    explicit NonZero(std::span<const float> code) {  // arrays are filled as far as they are used
+        for (std::size_t k = 0; k < code.size(); ++k) {
+            if (code[k] == 0.0F) continue;
+            atom[count] = static_cast<unsigned>(k);
+            coefficient[count++] = code[k];
+        }
+    }
+};
+
+}  // namespace
 
 Dictionary::Dictionary(Pattern pattern, int atoms)
     : pattern_(std::move(pattern)),
@@ -25,15 +43,25 @@ std::span<const float> Dictionary::atom(int k) const {
 }
 
 void Dictionary::decode(std::span<const float> code, std::span<float> out) const {
-    std::array<unsigned, kMaxAtoms> used;
-    std::array<float, kMaxAtoms> coefficient;
-    std::size_t count = 0;
-    for (std::size_t k = 0; k < code.size(); ++k) {
-        if (code[k] == 0.0F) continue;
-        used[count] = static_cast<unsigned>(k);
-        coefficient[count++] = code[k];
+    const NonZero used(code);
+    kernels::combine_rows(data(), stride_, stride_, used.atom.data(), used.coefficient.data(),
+                          used.count, out.data());
+}
+
+void Dictionary::decode_all(std::span<const float> codes, std::span<float> out) const {
+    // So many columns of all atoms stay in the first cache while all codes pass by.
+    constexpr std::size_t kColumns = 192;
+    const auto d = static_cast<std::size_t>(atoms_);
+    std::vector<NonZero> used;
+    for (std::size_t i = 0; i < codes.size(); i += d) used.emplace_back(codes.subspan(i, d));
+    for (std::size_t begin = 0; begin < stride_; begin += kColumns) {
+        const std::size_t columns = std::min(kColumns, stride_ - begin);
+        for (std::size_t i = 0; i < used.size(); ++i) {
+            kernels::combine_rows(data() + begin, stride_, columns, used[i].atom.data(),
+                                  used[i].coefficient.data(), used[i].count,
+                                  out.data() + i * stride_ + begin);
+        }
     }
-    kernels::combine_rows(data(), stride_, used.data(), coefficient.data(), count, out.data());
 }
 
 std::vector<float> Dictionary::gram() const {

@@ -20,11 +20,18 @@ DictionaryStatistics encode_sample(const FieldSample& sample, const Coder& coder
         DictionaryStatistics(dictionary.atoms(), dictionary.stride()));
     parallel_for(execution, "learn", "fields", sample.count(), kFieldsPerChunk,
                  [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-                     std::vector<float> correlations(static_cast<std::size_t>(dictionary.atoms()));
+                     const auto d = static_cast<std::size_t>(dictionary.atoms());
+                     std::vector<float> correlations(kFieldsOfBlock * d);
                      for (std::size_t i = begin; i < end; ++i) {
+                         const std::size_t k = (i - begin) % kFieldsOfBlock;
+                         if (k == 0) {
+                             const std::size_t size = std::min(kFieldsOfBlock, end - i);
+                             Coder::correlate(dictionary, sample.some(i, size), correlations);
+                         }
                          const float share =
                              sample.lambda_share.empty() ? 1.0F : sample.lambda_share[i];
-                         coder.encode(dictionary, gram, sample[i], correlations, codes[i], share);
+                         coder.solve(gram, std::span(correlations).subspan(k * d, d), codes[i],
+                                     share);
                          parts[chunk].add(codes[i], sample[i]);
                      }
                  });
@@ -37,8 +44,24 @@ DictionaryStatistics encode_sample(const FieldSample& sample, const Coder& coder
 void Coder::encode(const Dictionary& dictionary, std::span<const float> gram,
                    std::span<const float> field, std::span<float> correlations,
                    std::span<float> code, float lambda_share) const {
-    kernels::multiply_rows(dictionary.data(), static_cast<std::size_t>(dictionary.atoms()),
-                           dictionary.stride(), field.data(), correlations.data());
+    correlate(dictionary, field, correlations);
+    solve(gram, correlations, code, lambda_share);
+}
+
+void Coder::correlate(const Dictionary& dictionary, std::span<const float> fields,
+                      std::span<float> correlations) {
+    const auto d = static_cast<std::size_t>(dictionary.atoms());
+    const std::size_t stride = dictionary.stride();
+    if (fields.size() == stride) {
+        kernels::multiply_rows(dictionary.data(), d, stride, fields.data(), correlations.data());
+    } else {
+        kernels::multiply_rows_with_all(dictionary.data(), d, stride, fields.data(),
+                                        fields.size() / stride, correlations.data());
+    }
+}
+
+void Coder::solve(std::span<const float> gram, std::span<const float> correlations,
+                  std::span<float> code, float lambda_share) const {
     const LassoProblem problem{gram, correlations, lambda * lambda_share};
     if (method == LassoMethod::Lars) {
         solve_lars(problem, code);

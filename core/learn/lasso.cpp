@@ -49,7 +49,7 @@ void correlate(Descent& descent) {
     find_non_zero(descent, active);
     std::array<float, kMaxAtoms> coefficient;
     for (std::size_t i = 0; i < active.count; ++i) coefficient[i] = descent.code[active.atom[i]];
-    kernels::combine_rows(descent.gram, descent.d, active.atom.data(), coefficient.data(),
+    kernels::combine_rows(descent.gram, descent.d, descent.d, active.atom.data(), coefficient.data(),
                           active.count, descent.residual.data());
     for (std::size_t k = 0; k < descent.d; ++k) {
         descent.residual[k] = descent.correlations[k] - descent.residual[k];
@@ -72,15 +72,15 @@ void jump_to_minimum(Descent& descent, ActiveSet& active) {
     find_non_zero(descent, active);
     const std::size_t n = active.count;
     const std::size_t stride = kernels::padded_row(n);
-    std::array<double, (kMaxAtoms + 1) * kMaxAtoms> matrix;  // only what is used is touched
+    std::array<double, kernels::room_to_solve(kMaxAtoms)> matrix;  // only what is used is touched
     std::array<double, kMaxAtoms> step;
     for (std::size_t i = 0; i < n; ++i) {
         const unsigned k = active.atom[i];
         const float* row = descent.gram + k * descent.d;
         double* to = matrix.data() + i * stride;
-        for (std::size_t j = 0; j < n; ++j) to[j] = row[active.atom[j]];
-        std::fill(to + n, to + stride, 0.0);
-        step[i] = descent.residual[k] - std::copysign(descent.threshold, descent.code[k]);
+        for (std::size_t j = i; j < n; ++j) to[j] = row[active.atom[j]];
+        to[n] = descent.residual[k] - std::copysign(descent.threshold, descent.code[k]);
+        std::fill(to + n + 1, to + stride, 0.0);
     }
     kernels::solve_definite(matrix.data(), n, step.data());
     double length = 1;
@@ -97,24 +97,19 @@ void jump_to_minimum(Descent& descent, ActiveSet& active) {
     correlate(descent);
 }
 
-/// Sweeps over all atoms, each followed by a few over the non-zero ones.
+/// Exact steps on the non-zero atoms, each after a sweep over all of them; a code that was nearly
+/// right is so after the first step, and one sweep says so.
 int descend(Descent& descent, float tolerance, int max_sweeps) {
-    constexpr int kActiveSweeps = 1;
     ActiveSet all;
     std::iota(all.atom.begin(), all.atom.begin() + descent.d, 0U);
     all.count = descent.d;
     ActiveSet active;
+    jump_to_minimum(descent, active);
     int sweeps = 0;
     while (sweeps < max_sweeps) {
         ++sweeps;
-        float largest = sweep(descent, all);
-        if (largest <= tolerance) break;
-        find_non_zero(descent, active);
-        for (int i = 0; i < kActiveSweeps && largest > tolerance && sweeps < max_sweeps; ++i) {
-            ++sweeps;
-            largest = sweep(descent, active);
-        }
-        if (largest > tolerance) jump_to_minimum(descent, active);
+        if (sweep(descent, all) <= tolerance) break;
+        jump_to_minimum(descent, active);
     }
     return sweeps;
 }

@@ -33,6 +33,21 @@ double mean_equals(std::vector<std::uint64_t>& keys) {
     return pairs / static_cast<double>(keys.size());
 }
 
+/// The first item whose coordinate is `wanted` or more. Coordinates rise, and mostly by one: then
+/// the first guess is right.
+template <typename Iterator, typename Member>
+Iterator first_from(Iterator begin, Iterator end, std::uint64_t wanted, Member coordinate) {
+    if (begin == end || (*begin).*coordinate >= wanted) return begin;
+    const std::uint64_t steps = wanted - (*begin).*coordinate;
+    if (steps < static_cast<std::uint64_t>(end - begin)) {
+        const Iterator guess = begin + static_cast<std::ptrdiff_t>(steps);
+        if ((*guess).*coordinate == wanted) return guess;
+        end = guess;
+    }
+    return std::lower_bound(begin, end, wanted,
+                            [&](const auto& item, std::uint64_t w) { return item.*coordinate < w; });
+}
+
 }  // namespace
 
 double cell_of_some_points(const Points& points, double most) {
@@ -181,7 +196,7 @@ void PointGrid::gather(const Eigen::Vector3d& centre, double unit, float reach,
     }
     const double scale = 1.0 / unit;
     const auto gather_run = [&](std::size_t begin, std::size_t end) {
-        near.reserve(near.size + end - begin);
+        near.reserve(near.size + end - begin + kernels::kGatherSlack);
         const std::size_t at = near.size;
         near.size += kernels::gather_ball(&x_[begin], &y_[begin], &z_[begin], end - begin,
                                             relative.data(), scale, reach, begin, &near.x[at],
@@ -197,10 +212,8 @@ void PointGrid::gather(const Eigen::Vector3d& centre, double unit, float reach,
     for (std::uint64_t z = low[2]; z <= high[2]; ++z) {
         const double left_by_z = kRoundingUp * ball * ball - beyond(2, z);
         if (left_by_z < 0) continue;
-        auto row = rows_.begin() + slab_first_row_[z];
         const auto rows_end = rows_.begin() + slab_first_row_[z + 1];
-        row = std::lower_bound(row, rows_end, low[1],
-                               [](const Row& a, std::uint64_t y) { return a.y < y; });
+        auto row = first_from(rows_.begin() + slab_first_row_[z], rows_end, low[1], &Row::y);
         for (; row != rows_end && row->y <= high[1]; ++row) {
             const double left = left_by_z - beyond(1, row->y);
             if (left < 0) continue;
@@ -211,9 +224,8 @@ void PointGrid::gather(const Eigen::Vector3d& centre, double unit, float reach,
             const auto first = static_cast<std::uint64_t>(std::max(first_cell, 0.0));
             const auto last = static_cast<std::uint64_t>(last_cell);
             const auto cells_end = cells_.begin() + (row + 1)->first_cell;
-            const auto cell = std::lower_bound(
-                cells_.begin() + row->first_cell, cells_end, first,
-                [](const Cell& a, std::uint64_t x) { return a.x < x; });
+            const auto cell =
+                first_from(cells_.begin() + row->first_cell, cells_end, first, &Cell::x);
             auto end = cell;
             while (end != cells_end && end->x <= last) ++end;
             if (cell != end) gather_run(cell->first_point, end->first_point);

@@ -99,7 +99,7 @@ Work run(const Options& options, CostMeter& meter) {
     Document document = decode(file.bytes(), {}, {.threads = options.threads});
     Work work{.points = document.shape.cloud.size()};
     document.shape.cloud.points = computed(options, document.shape, execution, work, meter);
-    meter.begin("encode");
+    meter.begin("write");
     std::vector<Warning> lost;
     EncodeOptions how{.format = parse_format_name(options.format).value_or(document.format)};
     if (how.format == FileFormat::Draco) how.quantization_bits = 16;

@@ -199,8 +199,9 @@ TEST_P(KernelsOf, GatherBallKeepsThePointsInsideWithTheirNumbers) {
     const double centre[3] = {5.1, 4.9, 5.2};
     const double scale = 0.5;
     const float limit = 0.7F;
-    Floats out[3] = {Floats(n + 1), Floats(n + 1), Floats(n + 1)};
-    std::vector<unsigned> index(n + 1);
+    const std::size_t room = n + kernels::kGatherSlack;
+    Floats out[3] = {Floats(room), Floats(room), Floats(room)};
+    std::vector<unsigned> index(room);
     const std::size_t kept =
         kernels::gather_ball(p[0].data(), p[1].data(), p[2].data(), n, centre, scale, limit, 100,
                              out[0].data(), out[1].data(), out[2].data(), index.data());
