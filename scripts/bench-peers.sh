@@ -7,6 +7,7 @@
 #   scripts/bench-peers.sh --mesh fandisk.ply --write docs/peers.md
 #   scripts/bench-peers.sh --shapes curvenet_124 --methods ours,pcl_mls
 #   scripts/bench-peers.sh --methods ours,ours_resample     after a change of ours
+#   scripts/bench-peers.sh --build                         nothing but the programs
 #   scripts/bench-peers.sh --help                           all options, shapes and methods
 set -euo pipefail
 here=$PWD
@@ -38,6 +39,7 @@ case " $* " in
         cmake --build build/peers/programs >&2
         ;;
 esac
+[ "${1:-}" != --build ] || exit 0
 bench=$PWD/tests/bench/peers/bench.py
 cd "$here" # its paths are the caller's
 exec python3 "$bench" "$@"

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "core/base/kernels.h"
 #include "core/field/probing.h"
@@ -121,36 +122,37 @@ class PointRows {
 public:
     PointRows(const TargetArea& target, float step, int half, ProbeScratch& scratch)
         : first_(scratch.cells), x_(scratch.raster), y_(scratch.raster2), order_(scratch.cells2) {
-        const int rows = 2 * half + 1;
+        const std::size_t n = target.size;
         const auto limit = static_cast<float>(half);
-        const auto row_of = [&](float y) {
-            return static_cast<std::size_t>(std::clamp(y / step, -limit, limit) + limit + 0.5F);
-        };
-        first_.assign(static_cast<std::size_t>(rows) + 1, 0);
-        for (std::size_t i = 0; i < target.size; ++i) ++first_[row_of(target.y[i]) + 1];
-        for (int r = 0; r < rows; ++r) {
-            first_[static_cast<std::size_t>(r) + 1] += first_[static_cast<std::size_t>(r)];
+        const float per_step = 1.0F / step;
+        order_.resize(2 * n);
+        int* const row = order_.data() + n;
+        for (std::size_t i = 0; i < n; ++i) {
+            const float at = std::clamp(target.y[i] * per_step, -limit, limit);
+            row[i] = static_cast<int>(at + limit + 0.5F);
         }
-        x_.resize(target.size);
-        y_.resize(target.size);
-        order_.resize(target.size);
-        for (std::size_t i = 0; i < target.size; ++i) {
-            const auto at = static_cast<std::size_t>(first_[row_of(target.y[i])]++);
+        first_.assign(2 * static_cast<std::size_t>(half) + 3, 0);
+        int* const next = first_.data() + 1;  // counts of the rows, then where each goes on
+        for (std::size_t i = 0; i < n; ++i) ++next[row[i]];
+        int before = 0;
+        for (int r = 0; r <= 2 * half; ++r) before += std::exchange(next[r], before);
+        x_.resize(n);
+        y_.resize(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            const auto at = static_cast<std::size_t>(next[row[i]]++);
             x_[at] = target.x[i];
             y_[at] = target.y[i];
             order_[at] = static_cast<int>(i);
         }
-        // Each row has moved to the start of the next.
-        std::copy_backward(first_.begin(), first_.end() - 1, first_.end());
-        first_.front() = 0;
+        // Each row has gone on to the start of the next: first_[r] is where row r begins.
     }
 
     [[nodiscard]] int begin_of(int row) const { return first_[static_cast<std::size_t>(row)]; }
     [[nodiscard]] const float* x(int from) const { return x_.data() + from; }
     [[nodiscard]] const float* y(int from) const { return y_.data() + from; }
-    [[nodiscard]] std::size_t target(int i) const {
-        return static_cast<std::size_t>(order_[static_cast<std::size_t>(i)]);
-    }
+
+    /// Numbers in the target area of the points from that one on.
+    [[nodiscard]] const int* numbers(int from) const { return order_.data() + from; }
 
 private:
     std::vector<int>& first_;
@@ -190,10 +192,7 @@ public:
                 begin = 0;
                 look(run, rows, 0, static_cast<int>(target.size), nearest);
             }
-            for (int k = 0; k < run.nodes; ++k) {
-                set_displacement(pattern_, target, run.first_node + k,
-                                 rows.target(begin + nearest.point[k]), v);
-            }
+            set_displacements(run, nearest, rows.numbers(begin), target, v);
         }
     }
 
@@ -212,6 +211,17 @@ private:
         float squared[kLanes];
         int point[kLanes];
     };
+
+    void set_displacements(const Run& run, const Nearest& nearest, const int* numbers,
+                           const TargetArea& target, float* v) const {
+        const std::vector<float>* const coordinates[3] = {&target.x, &target.y, &target.z};
+        for (int c = 0; c < 3; ++c) {
+            const float* const from = coordinates[c]->data();
+            const float* const node = pattern_.channel(c) + run.first_node;
+            float* const to = v + c * pattern_.padded_size() + run.first_node;
+            for (int k = 0; k < run.nodes; ++k) to[k] = from[numbers[nearest.point[k]]] - node[k];
+        }
+    }
 
     [[nodiscard]] int row_of(int node) const {
         const long row = std::lround(pattern_.channel(1)[node] / pattern_.step());
