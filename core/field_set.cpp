@@ -13,8 +13,10 @@ namespace {
 
 constexpr std::size_t kFieldsPerChunk = 32;
 
-/// Cells of this share of the radius make a ball of 1.1 radii span few cells with little waste.
+/// Cells of about the radius make a ball of 1.1 radii span few of them. Where LPFs may be smaller,
+/// and large target areas are thinned in the order of the grid, finer ones are better.
 constexpr double kCellPerRadius = 1.0;
+constexpr double kFineCellPerRadius = 0.55;
 
 /// Samples of a mesh lie this close, so that no triangle of a target area is missed.
 constexpr double kMeshSampleSpacing = 0.1;
@@ -46,7 +48,7 @@ FieldSet::FieldSet(const Shape& shape, const AnalysisParams& params, const Execu
     : pattern_(make_pattern(params)),
       samples_(mesh_samples(shape, params)),
       grid_(samples_.triangle.empty() ? shape.cloud.points : samples_.points,
-            kCellPerRadius * params.radius, execution),
+            (params.noise > 0 ? kFineCellPerRadius : kCellPerRadius) * params.radius, execution),
       radius_(params.radius),
       target_radius_(static_cast<float>(params.target_radius)) {
     switch (params.probing) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -65,15 +66,22 @@ constexpr float kOneSided = 0.75F;
 /// A place so near a point needs no others around it [support distances].
 constexpr float kVeryNear = 0.25F;
 
-/// Whether target points lie around places of the plane: cells of one support distance.
+/// Whether target points lie around places of the plane: sorted into cells of one support distance.
 class Support {
 public:
     Support(const TargetArea& target, float distance) : distance_(distance) {
         side_ = static_cast<int>(std::min(256.0F, std::ceil(2 * kReach / distance))) + 1;
-        cells_.resize(static_cast<std::size_t>(side_ * side_));
+        std::vector<int> cell(target.size);
+        first_.assign(static_cast<std::size_t>(side_ * side_) + 2, 0);
         for (std::size_t i = 0; i < target.size; ++i) {
-            cells_[static_cast<std::size_t>(cell_of(target.y[i]) * side_ + cell_of(target.x[i]))]
-                .emplace_back(target.x[i], target.y[i]);
+            cell[i] = cell_of(target.y[i]) * side_ + cell_of(target.x[i]);
+            ++first_[static_cast<std::size_t>(cell[i]) + 2];
+        }
+        std::partial_sum(first_.begin(), first_.end(), first_.begin());
+        points_.resize(target.size);
+        for (std::size_t i = 0; i < target.size; ++i) {
+            const std::size_t at = first_[static_cast<std::size_t>(cell[i]) + 1]++;
+            points_[at] = {target.x[i], target.y[i]};
         }
     }
 
@@ -81,25 +89,21 @@ public:
     /// within twice of it do not all lie to one side.
     [[nodiscard]] bool covers(float x, float y) const {
         const Eigen::Vector2f place(x, y);
-        const float wide = 4 * distance_ * distance_;
-        float nearest = wide;
+        float nearest = std::numeric_limits<float>::infinity();
+        for_each_near(place, 1, [&](const Eigen::Vector2f& apart) {
+            nearest = std::min(nearest, apart.squaredNorm());
+        });
+        if (nearest > distance_ * distance_) return false;
+        if (nearest <= kVeryNear * kVeryNear * distance_ * distance_) return true;
         float count = 0;
         Eigen::Vector2f directions = Eigen::Vector2f::Zero();
-        for (int j = std::max(0, cell_of(y) - 2); j <= std::min(side_ - 1, cell_of(y) + 2); ++j) {
-            for (int i = std::max(0, cell_of(x) - 2); i <= std::min(side_ - 1, cell_of(x) + 2);
-                 ++i) {
-                for (const Eigen::Vector2f& p : cells_[static_cast<std::size_t>(j * side_ + i)]) {
-                    const float squared = (p - place).squaredNorm();
-                    if (squared > wide) continue;
-                    nearest = std::min(nearest, squared);
-                    directions += (p - place) / std::sqrt(std::max(squared, 1e-12F));
-                    count += 1;
-                }
-            }
-        }
-        if (nearest > distance_ * distance_) return false;
-        return nearest <= kVeryNear * kVeryNear * distance_ * distance_ ||
-               directions.norm() < kOneSided * count;
+        for_each_near(place, 2, [&](const Eigen::Vector2f& apart) {
+            const float squared = apart.squaredNorm();
+            if (squared > 4 * distance_ * distance_) return;
+            directions += apart / std::sqrt(std::max(squared, 1e-12F));
+            count += 1;
+        });
+        return directions.norm() < kOneSided * count;
     }
 
 private:
@@ -110,9 +114,25 @@ private:
         return std::clamp(static_cast<int>((coordinate + kReach) / cell), 0, side_ - 1);
     }
 
+    /// Visits the points in the cells up to `reach` away from that of the place: from it to each.
+    template <typename Visit>
+    void for_each_near(const Eigen::Vector2f& place, int reach, const Visit& visit) const {
+        const int column = cell_of(place.x());
+        const int row = cell_of(place.y());
+        for (int j = std::max(0, row - reach); j <= std::min(side_ - 1, row + reach); ++j) {
+            const auto begin = static_cast<std::size_t>(j * side_ + std::max(0, column - reach));
+            const auto last =
+                static_cast<std::size_t>(j * side_ + std::min(side_ - 1, column + reach));
+            for (std::size_t i = first_[begin]; i < first_[last + 1]; ++i) {
+                visit(points_[i] - place);
+            }
+        }
+    }
+
     float distance_;
     int side_ = 1;
-    std::vector<std::vector<Eigen::Vector2f>> cells_;
+    std::vector<std::size_t> first_;       // of each cell, into points_
+    std::vector<Eigen::Vector2f> points_;  // cell by cell
 };
 
 /// A field that jumps further between neighbouring nodes leaps from one part of the shape to
@@ -149,12 +169,13 @@ float support_distance(const TargetArea& target, double support, double spacing,
 /// that it is about.
 void propose(const Frame& frame, const Piece& piece, const Pattern& pattern,
              const TargetArea& target, const std::vector<float>& field,
-             const std::vector<Eigen::Vector2f>& places, float support,
+             const std::vector<Eigen::Vector2f>& places, std::optional<float> support,
              std::vector<Eigen::Vector3d>& proposals) {
-    const Support supported(target, support);
+    std::optional<Support> supported;
+    if (support) supported.emplace(target, *support);
     for (const Eigen::Vector2f& place : places) {
         const auto p = displace(pattern, field, place);
-        if (!p || !supported.covers(p->x(), p->y())) continue;
+        if (!p || (supported && !supported->covers(p->x(), p->y()))) continue;
         Eigen::Vector3f on_piece = *p + piece.shape(p->x(), p->y());
         if (piece.is_curve()) on_piece.y() -= place.y();
         const Eigen::Vector3f gap(0, 0, piece.half_gap(p->x(), p->y()));
@@ -193,7 +214,6 @@ Candidates collect(std::vector<std::vector<Eigen::Vector3d>> proposals) {
 
 Candidates propose(const FieldSet& fields, const AnalysisResult& analysis,
                    const ResampleParams& params, double spacing, const Execution& execution) {
-    constexpr float kEverywhere = 10.0F;
     const bool search = params.target_points > 0;
     const double apart = spacing * (search ? kCandidateStepOfSearch : kCandidateStep);
     std::map<double, std::vector<Eigen::Vector2f>> places;  // by the radius of the LPF
@@ -216,9 +236,10 @@ Candidates propose(const FieldSet& fields, const AnalysisResult& analysis,
             worker.decoded[i] +=
                 static_cast<float>(params.detail) * (worker.field[i] - worker.decoded[i]);
         }
-        const float distance = params.support > 0
-                                   ? support_distance(target, params.support, spacing, frame.radius)
-                                   : kEverywhere;
+        std::optional<float> distance;
+        if (params.support > 0) {
+            distance = support_distance(target, params.support, spacing, frame.radius);
+        }
         propose(frame, fields.pieces[j], fields.pattern(), target, worker.decoded,
                 places.at(frame.radius), distance, proposals[j]);
     };

@@ -1,7 +1,7 @@
 #include "core/base/crease_kernels.h"
 
 #include <algorithm>
-#include <cstring>
+#include <cmath>
 
 #include "core/base/blur.h"
 #include "core/base/multiversion.h"
@@ -66,6 +66,20 @@ void offsets_from_crease(const CreasedSurface& s, const float* x, const float* y
         const float d = z[i] - parabola(s.c, x[i], y[i]) - s.slope * distance;
         out[i] = d * d;
     }
+}
+
+LPF_MULTIVERSION
+void line_sums(float normal_x, float normal_y, float at, const float* x, const float* y,
+               const float* z, const float* weight, std::size_t n, float out[5]) {
+    float d0 = 0, dx = 0, dy = 0, dd = 0, dz = 0;
+#pragma omp simd reduction(+ : d0, dx, dy, dd, dz)
+    for (std::size_t i = 0; i < n; ++i) {
+        const float d = std::abs(normal_x * x[i] + normal_y * y[i] - at);
+        const float weighted = weight[i] * d;
+        d0 += weighted, dx += weighted * x[i], dy += weighted * y[i];
+        dd += weighted * d, dz += weighted * z[i];
+    }
+    out[0] = d0, out[1] = dx, out[2] = dy, out[3] = dd, out[4] = dz;
 }
 
 void crease_moments(const CreasedSurface& surface, const float* x, const float* y, const float* z,

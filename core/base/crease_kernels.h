@@ -19,6 +19,10 @@ struct CreasedSurface {
 void offsets_from_crease(const CreasedSurface& surface, const float* x, const float* y,
                          const float* z, std::size_t n, float* out);
 
+/// Sums of weight times the distance d to the line normal . (x, y) = at: of d, d x, d y, d d, d z.
+void line_sums(float normal_x, float normal_y, float at, const float* x, const float* y,
+               const float* z, const float* weight, std::size_t n, float out[5]);
+
 /// The rows of a Gauss-Newton step on a creased surface.
 inline constexpr int kCreaseRows = 10;
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <vector>
 
 #include "core/base/blur.h"
 #include "core/field/normal_equations.h"
@@ -34,6 +35,7 @@ constexpr int kBlocks = 7;
 constexpr int kDirections = 12;
 constexpr int kOffsets = 2;  // to either side
 constexpr double kOffsetStep = 0.25;
+constexpr double kLeastFree = 1e-5;  // of what a plane leaves of the distances: less is rounding
 
 /// Refinement, by Gauss and Newton: how far a step may turn or shift the crease.
 constexpr int kRounds = 4;
@@ -57,76 +59,85 @@ void set_line(const Line& line, Crease& crease) {
     crease.at = static_cast<float>(line.at);
 }
 
-struct BlockMean {
-    double points = 0;
-    double x = 0;
-    double y = 0;
-    double z = 0;
+/// Means of the points in the blocks of a raster, padded with blocks of no weight.
+struct BlockMeans {
+    static constexpr std::size_t kSize = 64;
+    static_assert(kBlocks * kBlocks <= kSize);
+    std::array<float, kSize> weight{}, x{}, y{}, z{};
+
+    explicit BlockMeans(const PieceSample& sample) {
+        const auto cell = [&](float value) {
+            const float share = (value / sample.extent() + 1) / 2;
+            return std::clamp(static_cast<int>(share * kBlocks), 0, kBlocks - 1);
+        };
+        for (std::size_t i = 0; i < sample.size(); ++i) {
+            const auto b =
+                static_cast<std::size_t>(cell(sample.y[i]) * kBlocks + cell(sample.x[i]));
+            weight[b] += 1;
+            x[b] += sample.x[i];
+            y[b] += sample.y[i];
+            z[b] += sample.z[i];
+        }
+        for (std::size_t b = 0; b < kSize; ++b) {
+            const float count = std::max(weight[b], 1.0F);
+            x[b] /= count;
+            y[b] /= count;
+            z[b] /= count;
+        }
+    }
 };
 
-std::array<BlockMean, kBlocks * kBlocks> block_means(const PieceSample& sample) {
-    std::array<BlockMean, kBlocks * kBlocks> blocks{};
-    const auto cell = [&](float value) {
-        const float share = (value / sample.extent() + 1) / 2;
-        return std::clamp(static_cast<int>(share * kBlocks), 0, kBlocks - 1);
-    };
-    for (std::size_t i = 0; i < sample.size(); ++i) {
-        BlockMean& block =
-            blocks[static_cast<std::size_t>(cell(sample.y[i]) * kBlocks + cell(sample.x[i]))];
-        block.points += 1;
-        block.x += sample.x[i];
-        block.y += sample.y[i];
-        block.z += sample.z[i];
+/// The lines that a guess is made among, and their normals.
+struct Guess {
+    Line line;
+    float normal_x;
+    float normal_y;
+};
+
+std::vector<Guess> all_guesses() {
+    std::vector<Guess> guesses;
+    for (int k = 0; k < kDirections * (2 * kOffsets + 1); ++k) {
+        const Line line{k % kDirections * std::numbers::pi / kDirections,
+                        (k / kDirections - kOffsets) * kOffsetStep};
+        guesses.push_back({line, static_cast<float>(line.x()), static_cast<float>(line.y())});
     }
-    for (BlockMean& block : blocks) {
-        if (block.points == 0) continue;
-        block.x /= block.points;
-        block.y /= block.points;
-        block.z /= block.points;
-    }
-    return blocks;
+    return guesses;
 }
 
 /// The best two planes over all points of the target area. What does not depend on the line is
 /// eliminated once: each line then costs five sums over the blocks.
 Line guess_line(const PieceSample& sample, Piece& piece) {
-    const auto blocks = block_means(sample);
+    static const std::vector<Guess> kGuesses = all_guesses();
+    const BlockMeans blocks(sample);
     NormalEquations<3> plane;
-    for (const BlockMean& b : blocks) plane.add_weighted({1, b.x, b.y}, b.z, b.points);
+    for (std::size_t b = 0; b < BlockMeans::kSize; ++b) {
+        plane.add_weighted({1, blocks.x[b], blocks.y[b]}, blocks.z[b], blocks.weight[b]);
+    }
     for (int k = 0; k < 3; ++k) plane.damp(k, kDamping);
-    const auto decomposed = plane.decomposed();
-    const Eigen::Vector3d flat = decomposed.solve(plane.right());
+    const Eigen::Matrix3d inverse = plane.decomposed().solve(Eigen::Matrix3d::Identity());
+    const Eigen::Vector3d flat = inverse * plane.right();
 
     double most = -1;
     Line best;
     Eigen::Vector3d best_sums = Eigen::Vector3d::Zero();
-    for (int k = 0; k < kDirections * (2 * kOffsets + 1); ++k) {
-        const Line line{k % kDirections * std::numbers::pi / kDirections,
-                        (k / kDirections - kOffsets) * kOffsetStep};
-        const double normal_x = line.x();
-        const double normal_y = line.y();
-        Eigen::Vector3d sums = Eigen::Vector3d::Zero();  // of the distance times 1, x, y
-        double squares = 0;
-        double heights = 0;
-        for (const BlockMean& b : blocks) {
-            const double distance = std::abs(normal_x * b.x + normal_y * b.y - line.at);
-            const double weighted = b.points * distance;
-            sums += weighted * Eigen::Vector3d(1, b.x, b.y);
-            squares += weighted * distance;
-            heights += weighted * b.z;
-        }
-        const double free = squares - sums.dot(decomposed.solve(sums));
-        if (free <= kDamping * (1 + squares)) continue;
-        const double slope = (heights - sums.dot(flat)) / free;
-        const double explained = slope * slope * free;
-        if (explained <= most) continue;
-        most = explained;
-        best = line;
+    for (const Guess& guess : kGuesses) {
+        float of_distance[5];
+        kernels::line_sums(guess.normal_x, guess.normal_y, static_cast<float>(guess.line.at),
+                           blocks.x.data(), blocks.y.data(), blocks.z.data(),
+                           blocks.weight.data(), BlockMeans::kSize, of_distance);
+        const Eigen::Vector3d sums(of_distance[0], of_distance[1], of_distance[2]);
+        const double squares = of_distance[3];
+        const double free = squares - sums.dot(inverse * sums);
+        if (free <= kLeastFree * squares) continue;
+        const double slope = (static_cast<double>(of_distance[4]) - sums.dot(flat)) / free;
+        if (slope * slope * free <= most) continue;
+        most = slope * slope * free;
+        best = guess.line;
         best_sums = sums;
         piece.crease.slope = static_cast<float>(slope);
     }
     const Eigen::Vector3d planes =
-        flat - static_cast<double>(piece.crease.slope) * decomposed.solve(best_sums);
+        flat - static_cast<double>(piece.crease.slope) * (inverse * best_sums);
     for (int c = 0; c < 3; ++c) piece.coefficients[c] = static_cast<float>(planes[c]);
     return best;
 }
