@@ -95,8 +95,7 @@ private:
         std::vector<FieldEnergy> chunk_energy(fields_.chunks());
         residuals_.assign(fields_.size(), 0.0F);
         fields_.for_each_block(
-            phase, execution, dictionary_.atoms(),
-            [&](FieldSet::Block& block, std::size_t chunk) {
+            phase, execution, dictionary_.atoms(), [&](FieldSet::Block& block, std::size_t chunk) {
                 FieldEnergy& energy = chunk_energy[chunk];
                 decode(previous_, block);
                 for (std::size_t i = 0; i < block.count; ++i) {

@@ -236,9 +236,9 @@ void FieldSet::optimise_poses(int passes, const Execution& execution) {
                          for (std::size_t j = begin; j < end; ++j) {
                              if (dimensions[j] == kTooFewPoints || pose_is_fixed(j)) continue;
                              probe(j, worker.probe, worker.field.data());
-                             apply_pose(fit_pose(pattern_, worker.field.data(),
-                                                 worker.decoded.data()),
-                                        frames[j]);
+                             apply_pose(
+                                 fit_pose(pattern_, worker.field.data(), worker.decoded.data()),
+                                 frames[j]);
                          }
                      });
     }

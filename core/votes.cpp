@@ -131,8 +131,8 @@ private:
         cast(j, target, density, other, ballot);
     }
 
-    /// From where the points are to the consolidated field, on the piece: T(x, y) between the nodes,
-    /// too, so that nothing snaps to them.
+    /// From where the points are to the consolidated field, on the piece: T(x, y) between the
+    /// nodes, too, so that nothing snaps to them.
     [[nodiscard]] Arrows wanted_moves(const Piece& piece, FieldSet::Worker& worker) const {
         const TargetArea& target = worker.probe.target;
         const float* x = target.x.data();

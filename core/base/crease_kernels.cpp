@@ -61,8 +61,7 @@ void offsets_from_crease(const CreasedSurface& s, const float* x, const float* y
                          std::size_t n, float* out) {
 #pragma omp simd
     for (std::size_t i = 0; i < n; ++i) {
-        const float distance =
-            blur(s.normal_x * x[i] + s.normal_y * y[i] - s.at, s.noise).distance;
+        const float distance = blur(s.normal_x * x[i] + s.normal_y * y[i] - s.at, s.noise).distance;
         const float d = z[i] - parabola(s.c, x[i], y[i]) - s.slope * distance;
         out[i] = d * d;
     }

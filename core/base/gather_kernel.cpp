@@ -53,8 +53,7 @@ LPF_WIDE std::size_t gather(const Run& run) {
         const __m512 dz = relative(lanes, run.z + i, run.centre[2], run.scale);
         const __m512 squared =
             _mm512_fmadd_ps(dz, dz, _mm512_fmadd_ps(dx, dx, _mm512_mul_ps(dy, dy)));
-        const __mmask16 inside =
-            _mm512_mask_cmp_ps_mask(lanes, squared, squared_limit, _CMP_LE_OQ);
+        const __mmask16 inside = _mm512_mask_cmp_ps_mask(lanes, squared, squared_limit, _CMP_LE_OQ);
         const __m512i index =
             _mm512_add_epi32(count, _mm512_set1_epi32(static_cast<int>(run.first + i)));
         _mm512_storeu_ps(run.out_x + kept, _mm512_maskz_compress_ps(inside, dx));
@@ -68,7 +67,8 @@ LPF_WIDE std::size_t gather(const Run& run) {
 
 __attribute__((target("default")))
 #endif
-std::size_t gather(const Run& run) {
+std::size_t
+gather(const Run& run) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < run.n; ++i) {
         const auto dx = static_cast<float>((run.x[i] - run.centre[0]) * run.scale);

@@ -65,8 +65,8 @@ void multiply_rows(const float* rows, std::size_t row_count, std::size_t n, cons
 }
 
 LPF_MULTIVERSION
-void multiply_rows_with_all(const float* rows, std::size_t row_count, std::size_t n,
-                            const float* v, std::size_t v_count, float* out) {
+void multiply_rows_with_all(const float* rows, std::size_t row_count, std::size_t n, const float* v,
+                            std::size_t v_count, float* out) {
     // Four rows stay in the first cache while all v pass by, two at a time.
     const std::size_t whole = n - n % kLanes;
     for (std::size_t first = 0; first < row_count; first += 4) {
@@ -134,7 +134,8 @@ void combine_rows(const float* rows, std::size_t stride, std::size_t n, const un
     }
     for (; begin < n; ++begin) {
         float sum = 0;
-        for (std::size_t k = 0; k < count; ++k) sum += coefficient[k] * rows[row[k] * stride + begin];
+        for (std::size_t k = 0; k < count; ++k)
+            sum += coefficient[k] * rows[row[k] * stride + begin];
         out[begin] = sum;
     }
 }

@@ -17,8 +17,8 @@ void multiply_rows(const float* rows, std::size_t row_count, std::size_t n, cons
                    float* out);
 
 /// The same for several vectors v, one behind the other: out[j row_count + k] = row k . v_j.
-void multiply_rows_with_all(const float* rows, std::size_t row_count, std::size_t n,
-                            const float* v, std::size_t v_count, float* out);
+void multiply_rows_with_all(const float* rows, std::size_t row_count, std::size_t n, const float* v,
+                            std::size_t v_count, float* out);
 
 /// out[i] += scale * in[i].
 void add_scaled(float scale, const float* in, float* out, std::size_t n);
@@ -38,8 +38,8 @@ inline constexpr std::size_t kRowBlock = 8;
 
 /// Solves the symmetric positive definite A x = b. Unknowns that depend linearly on those before
 /// them become 0.
-/// @param a n rows of padded_row(n) values: those of A from the diagonal on, b, and zeros. Destroyed;
-/// has room for one more row
+/// @param a n rows of padded_row(n) values: those of A from the diagonal on, b, and zeros.
+/// Destroyed; has room for one more row
 void solve_definite(double* a, std::size_t n, double* x);
 
 /// One sweep of coordinate descent on |V - D a|^2 + 2 threshold |a|_1 over the atoms listed.
@@ -91,8 +91,8 @@ void offsets_from_cubics(const float c[8], const float* x, const float* y, const
 void convolve(const float* in, float* out, std::size_t n, int stride, const float* taps, int reach);
 
 /// Which of the points is nearest to each of 16 nodes at (first_x + k step, row_y), k < 16.
-/// @param squared, point out: squared distance, infinite where there are no points, and whose it is;
-/// of equally near ones the first
+/// @param squared, point out: squared distance, infinite where there are no points, and whose it
+/// is; of equally near ones the first
 void nearest_to_nodes(const float* x, const float* y, std::size_t n, float first_x, float step,
                       float row_y, float squared[16], int point[16]);
 

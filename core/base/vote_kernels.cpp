@@ -40,8 +40,8 @@ void read_image(const Image& image, int planes, const float* x, const float* y, 
             const float up = row - static_cast<float>(low);
             const int at = low * columns + left;
             const float lower = values[at] + right * (values[at + 1] - values[at]);
-            const float upper = values[at + columns] +
-                                right * (values[at + columns + 1] - values[at + columns]);
+            const float upper =
+                values[at + columns] + right * (values[at + columns + 1] - values[at + columns]);
             to[i] = lower + up * (upper - lower);
         }
     }

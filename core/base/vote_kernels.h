@@ -40,8 +40,8 @@ void rotate(const float axes[9], float* x, float* y, float* z, std::size_t n);
 
 /// What a vote for the move (mx, my, mz) of the point (x, y) counts.
 struct Weighing {
-    float reliability;    ///< of the LPF
-    bool fades;           ///< towards the rim of the disk, as (1 - r^2)^2; outside it counts nothing
+    float reliability;  ///< of the LPF
+    bool fades;         ///< towards the rim of the disk, as (1 - r^2)^2; outside it counts nothing
     float least_density;  ///< densities are cut to [least_density, 1]
     float precision;      ///< of the likely moves, 1 / sigma^2; 0: all are likely
 };

@@ -123,8 +123,8 @@ Line guess_line(const PieceSample& sample, Piece& piece) {
     for (const Guess& guess : kGuesses) {
         float of_distance[5];
         kernels::line_sums(guess.normal_x, guess.normal_y, static_cast<float>(guess.line.at),
-                           blocks.x.data(), blocks.y.data(), blocks.z.data(),
-                           blocks.weight.data(), BlockMeans::kSize, of_distance);
+                           blocks.x.data(), blocks.y.data(), blocks.z.data(), blocks.weight.data(),
+                           BlockMeans::kSize, of_distance);
         const Eigen::Vector3d sums(of_distance[0], of_distance[1], of_distance[2]);
         const double squares = of_distance[3];
         const double free = squares - sums.dot(inverse * sums);

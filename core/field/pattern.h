@@ -41,8 +41,8 @@ public:
     /// The nodes in order of their distance to the centre.
     [[nodiscard]] const std::vector<int>& by_distance() const { return by_distance_; }
 
-    /// Of a grid: the node at each corner of its lattice, row by row, n / 2 * 2 + 1 to a row; beyond
-    /// the disk the nearest one.
+    /// Of a grid: the node at each corner of its lattice, row by row, n / 2 * 2 + 1 to a row;
+    /// beyond the disk the nearest one.
     [[nodiscard]] const std::vector<int>& raster() const { return raster_; }
 
     /// Four nodes and weights that interpolate a field at (x, y): bilinear on a grid, inverse

@@ -65,8 +65,8 @@ float Piece::squared_offset(float x, float y, float z) const {
 
 kernels::CreasedSurface creased_surface(const Piece& piece) {
     const Crease& crease = piece.crease;
-    return {piece.coefficients, crease.slope, crease.normal_x, crease.normal_y, crease.at,
-            piece.noise};
+    return {piece.coefficients, crease.slope, crease.normal_x,
+            crease.normal_y,    crease.at,    piece.noise};
 }
 
 void add_mean_change(const Piece& piece, float sign, const float* x, const float* y,
@@ -83,13 +83,13 @@ void add_mean_change(const Piece& piece, float sign, const float* x, const float
         return blur(piece.crease.signed_distance(px, py), piece.noise).distance;
     };
     for (std::size_t i = 0; i < n; ++i) {
-        out_z[i] += sign * piece.crease.slope *
-                    (fold(x[i] + dx[i], y[i] + dy[i]) - fold(x[i], y[i]));
+        out_z[i] +=
+            sign * piece.crease.slope * (fold(x[i] + dx[i], y[i] + dy[i]) - fold(x[i], y[i]));
     }
 }
 
-void add_shape(const Piece& piece, const float* x, const float* y, const float* dx,
-               const float* dy, std::size_t n, float* out_y, float* out_z) {
+void add_shape(const Piece& piece, const float* x, const float* y, const float* dx, const float* dy,
+               std::size_t n, float* out_y, float* out_z) {
     if (!piece.exists()) return;
     // A Gaussian blur adds the variance times half the second derivative.
     const float variance = piece.noise * piece.noise;

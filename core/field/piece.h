@@ -71,8 +71,8 @@ void add_mean_change(const Piece& piece, float sign, const float* x, const float
                      const float* dx, const float* dy, std::size_t n, float* out_y, float* out_z);
 
 /// Adds to out what leads from the mean to the shape at n places (x + dx, y + dy).
-void add_shape(const Piece& piece, const float* x, const float* y, const float* dx,
-               const float* dy, std::size_t n, float* out_y, float* out_z);
+void add_shape(const Piece& piece, const float* x, const float* y, const float* dx, const float* dy,
+               std::size_t n, float* out_y, float* out_z);
 
 /// From the piece's axes to coordinates in which the mean of its points is flat.
 void flatten(const Piece& piece, TargetArea& target);

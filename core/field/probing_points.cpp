@@ -238,11 +238,10 @@ private:
     }
 
     void look(const Run& run, const PointRows& rows, int begin, int end, Nearest& nearest) const {
-        kernels::nearest_to_nodes(rows.x(begin), rows.y(begin),
-                                  static_cast<std::size_t>(end - begin),
-                                  pattern_.channel(0)[run.first_node], pattern_.step(),
-                                  pattern_.channel(1)[run.first_node], nearest.squared,
-                                  nearest.point);
+        kernels::nearest_to_nodes(
+            rows.x(begin), rows.y(begin), static_cast<std::size_t>(end - begin),
+            pattern_.channel(0)[run.first_node], pattern_.step(),
+            pattern_.channel(1)[run.first_node], nearest.squared, nearest.point);
     }
 
     /// Points beyond the reach are farther away than what was found.

@@ -141,7 +141,8 @@ private:
                          TargetArea target;
                          PieceGrower grower;
                          for (std::size_t i = begin; i < end; ++i) {
-                             seeds[i] = examine(grid_.order()[open[chosen[i]]], trial, target, grower);
+                             seeds[i] =
+                                 examine(grid_.order()[open[chosen[i]]], trial, target, grower);
                          }
                      });
         // Curves first: a sheet that is laid across curves is left with none of their points.

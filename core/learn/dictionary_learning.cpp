@@ -18,23 +18,22 @@ DictionaryStatistics encode_sample(const FieldSample& sample, const Coder& coder
     std::vector<DictionaryStatistics> parts(
         chunk_count(sample.count(), kFieldsPerChunk),
         DictionaryStatistics(dictionary.atoms(), dictionary.stride()));
-    parallel_for(execution, "learn", "fields", sample.count(), kFieldsPerChunk,
-                 [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-                     const auto d = static_cast<std::size_t>(dictionary.atoms());
-                     std::vector<float> correlations(kFieldsOfBlock * d);
-                     for (std::size_t i = begin; i < end; ++i) {
-                         const std::size_t k = (i - begin) % kFieldsOfBlock;
-                         if (k == 0) {
-                             const std::size_t size = std::min(kFieldsOfBlock, end - i);
-                             Coder::correlate(dictionary, sample.some(i, size), correlations);
-                         }
-                         const float share =
-                             sample.lambda_share.empty() ? 1.0F : sample.lambda_share[i];
-                         coder.solve(gram, std::span(correlations).subspan(k * d, d), codes[i],
-                                     share);
-                         parts[chunk].add(codes[i], sample[i]);
-                     }
-                 });
+    parallel_for(
+        execution, "learn", "fields", sample.count(), kFieldsPerChunk,
+        [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+            const auto d = static_cast<std::size_t>(dictionary.atoms());
+            std::vector<float> correlations(kFieldsOfBlock * d);
+            for (std::size_t i = begin; i < end; ++i) {
+                const std::size_t k = (i - begin) % kFieldsOfBlock;
+                if (k == 0) {
+                    const std::size_t size = std::min(kFieldsOfBlock, end - i);
+                    Coder::correlate(dictionary, sample.some(i, size), correlations);
+                }
+                const float share = sample.lambda_share.empty() ? 1.0F : sample.lambda_share[i];
+                coder.solve(gram, std::span(correlations).subspan(k * d, d), codes[i], share);
+                parts[chunk].add(codes[i], sample[i]);
+            }
+        });
     for (std::size_t c = 1; c < parts.size(); ++c) parts[0].add(parts[c]);
     return std::move(parts.front());
 }

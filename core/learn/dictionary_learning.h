@@ -42,9 +42,7 @@ struct FieldSample {
     std::size_t stride = 0;
     std::vector<float> lambda_share = {};  ///< factor on lambda of each; empty = 1 for all
     [[nodiscard]] std::size_t count() const { return stride ? fields.size() / stride : 0; }
-    [[nodiscard]] std::span<const float> operator[](std::size_t i) const {
-        return some(i, 1);
-    }
+    [[nodiscard]] std::span<const float> operator[](std::size_t i) const { return some(i, 1); }
     /// n fields from number i on.
     [[nodiscard]] std::span<const float> some(std::size_t i, std::size_t n) const {
         return {fields.data() + i * stride, n * stride};

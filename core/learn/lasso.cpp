@@ -49,8 +49,8 @@ void correlate(Descent& descent) {
     find_non_zero(descent, active);
     std::array<float, kMaxAtoms> coefficient;
     for (std::size_t i = 0; i < active.count; ++i) coefficient[i] = descent.code[active.atom[i]];
-    kernels::combine_rows(descent.gram, descent.d, descent.d, active.atom.data(), coefficient.data(),
-                          active.count, descent.residual.data());
+    kernels::combine_rows(descent.gram, descent.d, descent.d, active.atom.data(),
+                          coefficient.data(), active.count, descent.residual.data());
     for (std::size_t k = 0; k < descent.d; ++k) {
         descent.residual[k] = descent.correlations[k] - descent.residual[k];
     }
@@ -91,8 +91,7 @@ void jump_to_minimum(Descent& descent, ActiveSet& active) {
     }
     for (std::size_t i = 0; i < n; ++i) {
         float& coefficient = descent.code[active.atom[i]];
-        coefficient =
-            i == crossing ? 0.0F : coefficient + static_cast<float>(length * step[i]);
+        coefficient = i == crossing ? 0.0F : coefficient + static_cast<float>(length * step[i]);
     }
     correlate(descent);
 }

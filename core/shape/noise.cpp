@@ -164,8 +164,7 @@ double noise_of(const Points& points, const PointGrid& grid, double radius, doub
         NearPoints ball;
         std::vector<double> heights;
         for (std::size_t i = begin; i < end; ++i) {
-            spreads[i] =
-                noise_around(grid, points.col(chosen[i]), radius, largest, ball, heights);
+            spreads[i] = noise_around(grid, points.col(chosen[i]), radius, largest, ball, heights);
         }
     });
     std::erase(spreads, -1.0);
@@ -253,8 +252,8 @@ Measurements measure(const Points& points, const Execution& execution) {
     const double cell = cell_of_some_points(points, kPointsInCell);
     const PointGrid grid(points, cell, execution);
     const double radius = measure_spacing(points, grid, cell, result, execution);
-    result.noise = noise_of(points, grid, radius, std::max(radius, kLargestBall * result.diagonal),
-                            execution);
+    result.noise =
+        noise_of(points, grid, radius, std::max(radius, kLargestBall * result.diagonal), execution);
     return result;
 }
 

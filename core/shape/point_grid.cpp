@@ -44,8 +44,9 @@ Iterator first_from(Iterator begin, Iterator end, std::uint64_t wanted, Member c
         if ((*guess).*coordinate == wanted) return guess;
         end = guess;
     }
-    return std::lower_bound(begin, end, wanted,
-                            [&](const auto& item, std::uint64_t w) { return item.*coordinate < w; });
+    return std::lower_bound(begin, end, wanted, [&](const auto& item, std::uint64_t w) {
+        return item.*coordinate < w;
+    });
 }
 
 }  // namespace
@@ -109,14 +110,14 @@ template <typename Key>
 void PointGrid::sort_points(const Points& points, const Execution& execution) {
     const auto n = static_cast<std::size_t>(points.cols());
     std::vector<Keyed<Key>> items(n);
-    parallel_for(execution, n, kPointsPerChunk,
-                 [&](std::size_t begin, std::size_t end, std::size_t) {
-                     for (std::size_t i = begin; i < end; ++i) {
-                         items[i] = {static_cast<Key>(key_of(
-                                         points.col(static_cast<Eigen::Index>(i)) - origin_)),
-                                     static_cast<std::uint32_t>(i)};
-                     }
-                 });
+    parallel_for(
+        execution, n, kPointsPerChunk, [&](std::size_t begin, std::size_t end, std::size_t) {
+            for (std::size_t i = begin; i < end; ++i) {
+                items[i] = {
+                    static_cast<Key>(key_of(points.col(static_cast<Eigen::Index>(i)) - origin_)),
+                    static_cast<std::uint32_t>(i)};
+            }
+        });
     {
         std::vector<Keyed<Key>> room;
         radix_sort(items, room, size_[0] * size_[1] * size_[2], execution);
@@ -199,8 +200,8 @@ void PointGrid::gather(const Eigen::Vector3d& centre, double unit, float reach,
         near.reserve(near.size + end - begin + kernels::kGatherSlack);
         const std::size_t at = near.size;
         near.size += kernels::gather_ball(&x_[begin], &y_[begin], &z_[begin], end - begin,
-                                            relative.data(), scale, reach, begin, &near.x[at],
-                                            &near.y[at], &near.z[at], &near.index[at]);
+                                          relative.data(), scale, reach, begin, &near.x[at],
+                                          &near.y[at], &near.z[at], &near.index[at]);
     };
     // How far the ball reaches past the cells of a row: what it leaves of them along x.
     const auto beyond = [&](int axis, std::uint64_t cell) {

@@ -8,7 +8,7 @@ namespace lpf::bench {
 /// What one phase took.
 struct Cost {
     std::string phase;
-    double cpu_seconds = 0.0;   ///< user and system, of this process and of its ended children
+    double cpu_seconds = 0.0;  ///< user and system, of this process and of its ended children
     double wall_seconds = 0.0;
 };
 

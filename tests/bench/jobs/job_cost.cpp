@@ -64,8 +64,8 @@ struct Work {
     std::size_t fields = 0;
 };
 
-Points computed(const Options& options, const Shape& shape, const Execution& execution,
-                Work& work, CostMeter& meter) {
+Points computed(const Options& options, const Shape& shape, const Execution& execution, Work& work,
+                CostMeter& meter) {
     if (options.task == "none") return shape.cloud.points;
     if (options.task == "paper") {
         meter.begin("prepare");
@@ -86,10 +86,9 @@ Work run(const Options& options, CostMeter& meter) {
     const fs::path folder = temporary_folder();
     const std::shared_ptr<void> cleaner(nullptr, [&](void*) { fs::remove_all(folder); });
     server::FileBlobStore blobs(folder);
-    const Execution execution{.threads = options.threads,
-                              .progress = [&](const Progress& progress) {
-                                  meter.begin(std::string(progress.phase));
-                              }};
+    const Execution execution{
+        .threads = options.threads,
+        .progress = [&](const Progress& progress) { meter.begin(std::string(progress.phase)); }};
 
     meter.begin("receive");
     const fs::path kept = receive(options.file, blobs);

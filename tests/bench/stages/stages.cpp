@@ -56,8 +56,7 @@ const Scene& scene() {
 
 /// Notes the share of the peak rate. @param operations of all iterations
 void count_operations(benchmark::State& state, double operations) {
-    state.counters["GFLOP/s"] =
-        benchmark::Counter(1e-9 * operations, benchmark::Counter::kIsRate);
+    state.counters["GFLOP/s"] = benchmark::Counter(1e-9 * operations, benchmark::Counter::kIsRate);
     state.counters["peak"] =
         benchmark::Counter(operations / peak_rate(), benchmark::Counter::kIsRate);
 }
@@ -65,8 +64,7 @@ void count_operations(benchmark::State& state, double operations) {
 void Peak(benchmark::State& state) {
     constexpr std::size_t kRounds = 1U << 14U;
     for (auto _ : state) benchmark::DoNotOptimize(multiply_and_add(kRounds, 0.5F, 1.0F));
-    count_operations(state,
-                     static_cast<double>(state.iterations()) * kRounds * kOperationsOfRound);
+    count_operations(state, static_cast<double>(state.iterations()) * kRounds * kOperationsOfRound);
 }
 BENCHMARK(Peak);
 
@@ -79,8 +77,8 @@ void Gather(benchmark::State& state) {
         scene().gather(i++, target);
         points += target.size;
     }
-    state.counters["points"] = benchmark::Counter(static_cast<double>(points),
-                                                  benchmark::Counter::kAvgIterations);
+    state.counters["points"] =
+        benchmark::Counter(static_cast<double>(points), benchmark::Counter::kAvgIterations);
 }
 BENCHMARK(Gather);
 
@@ -103,8 +101,8 @@ BENCHMARK_CAPTURE(Probe, noise_aware, make_noise_aware_probing(Pattern::grid(16)
 
 std::vector<float> some_fields(std::size_t count) {
     const Scene& s = scene();
-    return s.fields->probe_sample({s.surfaces.begin(),
-                                   s.surfaces.begin() + static_cast<std::ptrdiff_t>(count)}, {});
+    return s.fields->probe_sample(
+        {s.surfaces.begin(), s.surfaces.begin() + static_cast<std::ptrdiff_t>(count)}, {});
 }
 
 void Correlate(benchmark::State& state) {
@@ -166,8 +164,8 @@ void Pose(benchmark::State& state) {
     s.analysis->dictionary.decode(s.analysis->codes[s.surfaces[0]], decoded);
     std::size_t i = 0;
     for (auto _ : state) {
-        benchmark::DoNotOptimize(fit_pose(s.fields->pattern(),
-                                          fields.data() + (i++ % 64) * stride, decoded.data()));
+        benchmark::DoNotOptimize(
+            fit_pose(s.fields->pattern(), fields.data() + (i++ % 64) * stride, decoded.data()));
     }
 }
 BENCHMARK(Pose);
@@ -220,12 +218,13 @@ void ProbeCodePose(benchmark::State& state) {
         s.gather(i, target);
         points += static_cast<double>(target.size) / 256;
         used += static_cast<double>(std::ranges::count_if(s.analysis->codes[s.surfaces[i]],
-                                                          [](float c) { return c != 0; })) / 256;
+                                                          [](float c) { return c != 0; })) /
+                256;
     }
     for (auto _ : state) benchmark::DoNotOptimize(analyze(fields, params, {}));
     const double stride = static_cast<double>(s.analysis->dictionary.stride());
     const double m = s.fields->pattern().size();
-    const double gather = 8 * 2 * points;           // as many more are looked at
+    const double gather = 8 * 2 * points;  // as many more are looked at
     const double probe = 15 * points + 3 * m + 15 * 5 * 16 * 5 * points / 15;
     const double correlate = 2 * 32 * stride;
     const double lasso = 2 * (used * used * used / 3 + 2 * used * 32) + 3 * 2 * 32 * used;
@@ -237,9 +236,8 @@ void ProbeCodePose(benchmark::State& state) {
     const double closing = gather + probe + correlate + lasso + 2 * decode + 2 * energies;
     const auto n = static_cast<double>(s.fields->size());
     count_operations(state, static_cast<double>(state.iterations()) * n * (moving + closing));
-    state.counters["perPass"] =
-        benchmark::Counter(2 * n, benchmark::Counter::kIsIterationInvariantRate |
-                                      benchmark::Counter::kInvert);
+    state.counters["perPass"] = benchmark::Counter(
+        2 * n, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(ProbeCodePose)->Unit(benchmark::kMillisecond);
 

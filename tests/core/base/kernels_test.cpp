@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "core/base/random.h"
@@ -49,6 +51,106 @@ TEST_P(KernelsOf, MultiplyRowsIsOneDotProductARow) {
             EXPECT_NEAR(out[k], kernels::dot(matrix.data() + k * n, v.data(), n), 2 * tolerance);
         }
         EXPECT_EQ(out[rows], 77.0F) << "wrote past the end";
+    }
+}
+
+TEST_P(KernelsOf, MultiplyRowsWithAllIsOneProductAVector) {
+    for (const std::size_t rows : {1U, 4U, 7U}) {
+        for (const std::size_t vectors : {1U, 2U, 5U}) {
+            const Floats matrix = random_floats(rows * n, 3);
+            const Floats v = random_floats(vectors * n, 4);
+            Floats out(vectors * rows + 1, 77.0F);
+            kernels::multiply_rows_with_all(matrix.data(), rows, n, v.data(), vectors, out.data());
+            for (std::size_t j = 0; j < vectors; ++j) {
+                for (std::size_t k = 0; k < rows; ++k) {
+                    EXPECT_NEAR(out[j * rows + k],
+                                kernels::dot(matrix.data() + k * n, v.data() + j * n, n),
+                                2 * tolerance);
+                }
+            }
+            EXPECT_EQ(out.back(), 77.0F) << "wrote past the end";
+        }
+    }
+}
+
+TEST_P(KernelsOf, CombineRowsAddsUpSomeRows) {
+    const std::size_t stride = n + 3;
+    const Floats rows = random_floats(4 * stride, 3);
+    const unsigned chosen[] = {3, 0, 2};
+    const float coefficient[] = {0.5F, -2.0F, 1.25F};
+    for (const std::size_t count : {0U, 1U, 3U}) {
+        Floats out(n + 1, 77.0F);
+        kernels::combine_rows(rows.data(), stride, n, chosen, coefficient, count, out.data());
+        for (std::size_t i = 0; i < n; ++i) {
+            double expected = 0;
+            for (std::size_t k = 0; k < count; ++k) {
+                expected += double{coefficient[k]} * double{rows[chosen[k] * stride + i]};
+            }
+            ASSERT_NEAR(out[i], expected, 1e-5);
+        }
+        EXPECT_EQ(out[n], 77.0F) << "wrote past the end";
+    }
+}
+
+TEST_P(KernelsOf, NearestToNodesIsTheFirstOfTheNearest) {
+    const Floats x = random_floats(n, 12);
+    Floats y = random_floats(n, 13);
+    if (n > 4) y[4] = y[2];
+    float squared[16];
+    int point[16];
+    kernels::nearest_to_nodes(x.data(), y.data(), n, -0.8F, 0.1F, 0.2F, squared, point);
+    for (int k = 0; k < 16; ++k) {
+        const float node = -0.8F + 0.1F * static_cast<float>(k);
+        float least = std::numeric_limits<float>::infinity();
+        for (std::size_t i = 0; i < n; ++i) {
+            least = std::min(least, (x[i] - node) * (x[i] - node) + (y[i] - 0.2F) * (y[i] - 0.2F));
+        }
+        if (n == 0) {
+            EXPECT_EQ(squared[k], least);
+            continue;
+        }
+        EXPECT_NEAR(squared[k], least, 1e-5F);
+        const auto found = static_cast<std::size_t>(point[k]);
+        EXPECT_NEAR(std::pow(x[found] - node, 2) + std::pow(y[found] - 0.2F, 2), least, 1e-5F);
+    }
+}
+
+TEST(Kernels, OfEquallyNearPointsTheFirstIsNearest) {
+    const Floats x(5, 0.3F);
+    const Floats y(5, 0.1F);
+    float squared[16];
+    int point[16];
+    kernels::nearest_to_nodes(x.data(), y.data(), 5, -0.8F, 0.1F, 0.2F, squared, point);
+    for (const int p : point) EXPECT_EQ(p, 0);
+}
+
+/// A matrix with a dependent row, laid out as solve_definite wants it.
+TEST(Kernels, SolveDefiniteSolvesAndLeavesOutWhatDepends) {
+    for (const std::size_t n : {1U, 2U, 7U, 8U, 9U, 22U}) {
+        const Floats rows = random_floats(n * 40, n);
+        const auto product = [&](std::size_t i, std::size_t j) {
+            double sum = 0;
+            for (std::size_t k = 0; k < 40; ++k) {
+                sum += double{rows[i * 40 + k]} * double{rows[j * 40 + k]};
+            }
+            return sum;
+        };
+        const std::size_t dependent = n > 2 ? n / 2 : n;  // a copy of row 0
+        const auto source = [&](std::size_t i) { return i == dependent ? 0 : i; };
+        const std::size_t stride = kernels::padded_row(n);
+        std::vector<double> a(kernels::room_to_solve(n), 0.0);
+        std::vector<double> x(n, 99.0);
+        for (std::size_t i = 0; i < n; ++i) {
+            for (std::size_t j = i; j < n; ++j) a[i * stride + j] = product(source(i), source(j));
+            a[i * stride + n] = source(i) == 0 ? 1.0 : static_cast<double>(i);
+        }
+        kernels::solve_definite(a.data(), n, x.data());
+        EXPECT_TRUE(dependent == n || x[dependent] == 0.0);
+        for (std::size_t i = 0; i < n; ++i) {
+            double image = 0;
+            for (std::size_t j = 0; j < n; ++j) image += product(source(i), source(j)) * x[j];
+            EXPECT_NEAR(image, source(i) == 0 ? 1.0 : static_cast<double>(i), 1e-6);
+        }
     }
 }
 

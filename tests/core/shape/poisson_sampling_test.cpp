@@ -211,5 +211,18 @@ TEST(TriangleSamples, DrawsOtherPlacesInEveryTriangle) {
     EXPECT_GT((low - high).norm(), 1e-9) << "the second triangle repeats the first";
 }
 
+TEST(PoissonDiskSubset, OfSomePlacesOfAGridChoosesAmongThemAlone) {
+    const Points points = test::random_box(3000, 8);
+    const PointGrid grid(points, 0.1);
+    std::vector<std::uint32_t> places;
+    for (std::uint32_t i = 0; i < grid.size(); i += 3) places.push_back(i);
+    const Indices chosen = poisson_disk_subset(grid, places, 0.15, 4, {});
+    Points some(3, static_cast<Eigen::Index>(places.size()));
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        some.col(static_cast<Eigen::Index>(i)) = grid.point(places[i]);
+    }
+    expect_poisson_disk(some, chosen, 0.15);
+}
+
 }  // namespace
 }  // namespace lpf
