@@ -4,8 +4,8 @@
 
 namespace lpf {
 
-/// exp(v) for v <= 0, to 2e-7 (1 + |v|) of it, as arithmetic that runs in lanes: the library's does not,
-/// unless all of floating point is loosened by -ffast-math.
+/// exp(v) for v <= 0, to 2e-7 (1 + |v|) of it, as arithmetic that runs in lanes: the library's does
+/// not, unless all of floating point is loosened by -ffast-math.
 inline float exponential(float v) {
     const float limited = v > -87.0F ? v : -87.0F;
     const float t = limited * 1.44269504F;
