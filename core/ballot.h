@@ -2,9 +2,12 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <vector>
+
+#include "core/base/parallel.h"
 
 namespace lpf {
 
@@ -19,7 +22,7 @@ struct Votes {
 /// fixed point, so that the order of the threads changes no digit.
 class Ballot {
 public:
-    explicit Ballot(std::size_t points);
+    explicit Ballot(std::size_t points, const Execution& execution = {});
 
     /// May be called from any number of threads.
     void cast(const Votes& votes);
@@ -28,8 +31,8 @@ public:
     [[nodiscard]] Eigen::Vector3d outcome(std::size_t point) const;
 
 private:
-    std::vector<std::int64_t> sums_;
-    std::vector<std::mutex> locks_;  // of so many points each
+    std::unique_ptr<std::int64_t[]> sums_;  // four for each point
+    std::vector<std::mutex> locks_;         // of so many points each
 };
 
 }  // namespace lpf

@@ -186,7 +186,7 @@ private:
 Moves vote(const FieldSet& fields, const AnalysisResult& analysis, const VoteParams& params,
            const Execution& execution) {
     const auto decide = [&](const Moves* before, double width, const Execution& part) {
-        Ballot ballot(fields.grid().size());
+        Ballot ballot(fields.grid().size(), execution);
         Round(fields, analysis, params, before, width).run(ballot, part);
         Moves moves(fields.grid().size());
         parallel_for(execution, moves.size(), kPointsPerChunk,

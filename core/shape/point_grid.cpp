@@ -123,17 +123,16 @@ void PointGrid::sort_points(const Points& points, const Execution& execution) {
         radix_sort(items, room, size_[0] * size_[1] * size_[2], execution);
     }
     order_.resize(n);
-    x_.resize(n);
-    y_.resize(n);
-    z_.resize(n);
+    for (Eigen::VectorXd* axis : {&x_, &y_, &z_}) axis->resize(points.cols());
     parallel_for(execution, n, kPointsPerChunk,
                  [&](std::size_t begin, std::size_t end, std::size_t) {
                      for (std::size_t i = begin; i < end; ++i) {
                          order_[i] = items[i].second;
                          const Eigen::Vector3d relative = points.col(items[i].second) - origin_;
-                         x_[i] = relative.x();
-                         y_[i] = relative.y();
-                         z_[i] = relative.z();
+                         const auto at = static_cast<Eigen::Index>(i);
+                         x_[at] = relative.x();
+                         y_[at] = relative.y();
+                         z_[at] = relative.z();
                      }
                  });
     index_cells(items, execution);
@@ -199,9 +198,9 @@ void PointGrid::gather(const Eigen::Vector3d& centre, double unit, float reach,
     const auto gather_run = [&](std::size_t begin, std::size_t end) {
         near.reserve(near.size + end - begin + kernels::kGatherSlack);
         const std::size_t at = near.size;
-        near.size += kernels::gather_ball(&x_[begin], &y_[begin], &z_[begin], end - begin,
-                                          relative.data(), scale, reach, begin, &near.x[at],
-                                          &near.y[at], &near.z[at], &near.index[at]);
+        near.size += kernels::gather_ball(x_.data() + begin, y_.data() + begin, z_.data() + begin,
+                                          end - begin, relative.data(), scale, reach, begin,
+                                          &near.x[at], &near.y[at], &near.z[at], &near.index[at]);
     };
     // How far the ball reaches past the cells of a row: what it leaves of them along x.
     const auto beyond = [&](int axis, std::uint64_t cell) {

@@ -41,7 +41,8 @@ public:
 
     /// Position of the i-th sorted point [input length].
     [[nodiscard]] Eigen::Vector3d point(std::size_t i) const {
-        return origin_ + Eigen::Vector3d(x_[i], y_[i], z_[i]);
+        const auto at = static_cast<Eigen::Index>(i);
+        return origin_ + Eigen::Vector3d(x_[at], y_[at], z_[at]);
     }
 
     /// All points within `reach` units of the centre, in ascending order of their index.
@@ -69,7 +70,7 @@ private:
     double inverse_cell_ = 1.0;
     std::uint64_t size_[3] = {1, 1, 1};  // cells along each axis
     std::vector<std::uint32_t> order_;
-    std::vector<double> x_, y_, z_;              // relative to origin_
+    Eigen::VectorXd x_, y_, z_;                  // relative to origin_; not zeroed first
     std::vector<std::uint32_t> slab_first_row_;  // size_[2] + 1, into rows_
     std::vector<Row> rows_;                      // one more than there are
     std::vector<Cell> cells_;                    // one more than there are
