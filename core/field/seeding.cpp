@@ -93,7 +93,9 @@ public:
             for (int round = 0; round < kRounds; ++round) {
                 trial.last_chance = last && round + 1 == kRounds;
                 if (trial.last_chance) reopen_tried();
-                place(trial, execution);
+                const double steps = kRounds * static_cast<double>(radii.size());
+                const double step = static_cast<double>(k) * kRounds + round;
+                place(trial, part_of(execution, step / steps, (step + 1) / steps));
             }
             reopen_tried();
         }
@@ -133,10 +135,11 @@ private:
     void place(const Trial& trial, const Execution& execution) {
         const Indices open = open_places(execution);
         if (open.empty()) return;
-        const Indices chosen = poisson_disk_subset(grid_, open, params_.spacing * trial.radius,
-                                                   params_.random_seed, execution);
+        const Indices chosen =
+            poisson_disk_subset(grid_, open, params_.spacing * trial.radius, params_.random_seed,
+                                part_of(execution, 0.0, 0.2));
         std::vector<Seed> seeds(chosen.size());
-        parallel_for(execution, seeds.size(), kSeedsPerChunk,
+        parallel_for(part_of(execution, 0.2, 1.0), "seeds", "fields", seeds.size(), kSeedsPerChunk,
                      [&](std::size_t begin, std::size_t end, std::size_t) {
                          TargetArea target;
                          PieceGrower grower;

@@ -10,7 +10,7 @@ import bench
 def cost(cpu, wall=1.0, **phases):
     return {"fields": 2000, "points": 1000, "cpuSeconds": cpu, "wallSeconds": wall,
             "peakBytes": 5e6,
-            "phases": {name: {"cpuSeconds": seconds} for name, seconds in phases.items()}}
+            "phases": {name: {"cpuSeconds": seconds, "wallSeconds": seconds / 2} for name, seconds in phases.items()}}
 
 
 class Bench(unittest.TestCase):
@@ -19,6 +19,9 @@ class Bench(unittest.TestCase):
 
     def test_files_are_what_is_not_the_method(self):
         self.assertAlmostEqual(bench.share_around(cost(2, receive=0.1, store=0.1, vote=1.8)), 0.1)
+
+    def test_uploads_are_no_part_of_a_job(self):
+        self.assertAlmostEqual(bench.job_seconds(cost(3, receive=1, inspect=1, vote=3, store=1)), 2)
 
     def test_a_row_has_a_cell_for_each_column(self):
         row = bench.row_of("net", cost(2, wall=0.5, vote=2))
