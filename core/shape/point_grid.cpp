@@ -10,7 +10,7 @@
 namespace lpf {
 namespace {
 
-/// Cells along an axis at most: three axes must fit one 63-bit key, and the slabs need a table.
+/// Cells along an axis at most: three axes must fit one 63-bit key.
 constexpr double kMaximumCells = 1 << 20;
 
 constexpr std::size_t kPointsPerChunk = 1U << 16U;
@@ -78,7 +78,7 @@ void NearPoints::reserve(std::size_t points) {
 
 PointGrid::PointGrid(const Points& points, double cell, const Execution& execution) {
     if (points.cols() == 0) {
-        slab_first_row_ = {0, 0};
+        slabs_ = {{0, 0}};
         rows_ = {{0, 0}};
         cells_ = {{0, 0}};
         return;
@@ -148,22 +148,24 @@ void PointGrid::index_cells(const std::vector<Keyed<Key>>& sorted, const Executi
                          starts[chunk].push_back(static_cast<std::uint32_t>(i));
                      }
                  });
-    slab_first_row_.assign(size_[2] + 1, 0);
     std::uint64_t last_row = ~std::uint64_t{0};
     for (const std::vector<std::uint32_t>& chunk : starts) {
         for (const std::uint32_t first_point : chunk) {
             const std::uint64_t key = sorted[first_point].first;
             const std::uint64_t row = key / size_[0];
             if (row != last_row) {
+                const auto z = static_cast<std::uint32_t>(row / size_[1]);
+                if (slabs_.empty() || slabs_.back().z != z) {
+                    slabs_.push_back({z, static_cast<std::uint32_t>(rows_.size())});
+                }
                 rows_.push_back({static_cast<std::uint32_t>(row % size_[1]),
                                  static_cast<std::uint32_t>(cells_.size())});
-                ++slab_first_row_[row / size_[1] + 1];
             }
             cells_.push_back({static_cast<std::uint32_t>(key % size_[0]), first_point});
             last_row = row;
         }
     }
-    for (std::size_t z = 0; z < size_[2]; ++z) slab_first_row_[z + 1] += slab_first_row_[z];
+    slabs_.push_back({~0U, static_cast<std::uint32_t>(rows_.size())});
     rows_.push_back({~0U, static_cast<std::uint32_t>(cells_.size())});
     cells_.push_back({~0U, static_cast<std::uint32_t>(order_.size())});
 }
@@ -209,11 +211,13 @@ void PointGrid::gather(const Eigen::Vector3d& centre, double unit, float reach,
         const double outside = std::max({below, above, 0.0});
         return outside * outside;
     };
-    for (std::uint64_t z = low[2]; z <= high[2]; ++z) {
-        const double left_by_z = kRoundingUp * ball * ball - beyond(2, z);
+    const auto slabs_end = slabs_.end() - 1;
+    auto slab = first_from(slabs_.begin(), slabs_end, low[2], &Slab::z);
+    for (; slab != slabs_end && slab->z <= high[2]; ++slab) {
+        const double left_by_z = kRoundingUp * ball * ball - beyond(2, slab->z);
         if (left_by_z < 0) continue;
-        const auto rows_end = rows_.begin() + slab_first_row_[z + 1];
-        auto row = first_from(rows_.begin() + slab_first_row_[z], rows_end, low[1], &Row::y);
+        const auto rows_end = rows_.begin() + (slab + 1)->first_row;
+        auto row = first_from(rows_.begin() + slab->first_row, rows_end, low[1], &Row::y);
         for (; row != rows_end && row->y <= high[1]; ++row) {
             const double left = left_by_z - beyond(1, row->y);
             if (left < 0) continue;

@@ -50,6 +50,10 @@ public:
     void gather(const Eigen::Vector3d& centre, double unit, float reach, NearPoints& near) const;
 
 private:
+    struct Slab {
+        std::uint32_t z;          // cell coordinate
+        std::uint32_t first_row;  // into rows_
+    };
     struct Row {
         std::uint32_t y;           // cell coordinate
         std::uint32_t first_cell;  // into cells_
@@ -70,10 +74,10 @@ private:
     double inverse_cell_ = 1.0;
     std::uint64_t size_[3] = {1, 1, 1};  // cells along each axis
     std::vector<std::uint32_t> order_;
-    Eigen::VectorXd x_, y_, z_;                  // relative to origin_; not zeroed first
-    std::vector<std::uint32_t> slab_first_row_;  // size_[2] + 1, into rows_
-    std::vector<Row> rows_;                      // one more than there are
-    std::vector<Cell> cells_;                    // one more than there are
+    Eigen::VectorXd x_, y_, z_;  // relative to origin_; not zeroed first
+    std::vector<Slab> slabs_;    // one more than there are
+    std::vector<Row> rows_;      // one more than there are
+    std::vector<Cell> cells_;    // one more than there are
 };
 
 }  // namespace lpf

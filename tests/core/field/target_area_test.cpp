@@ -105,6 +105,17 @@ TEST_P(PointGridOn, GathersInTheSameOrderEachTime) {
 INSTANTIATE_TEST_SUITE_P(Clouds, PointGridOn, testing::ValuesIn(test::awkward_clouds()),
                          test::CloudName());
 
+TEST(PointGrid, BallsThatReachAFarPointDoNotWalkThroughTheEmptySpaceBetween) {
+    Points points(3, 3);
+    points << 0, 1, 1e30, 0, 1, -1e30, 0, 1, 1e30;
+    const PointGrid grid(points, 1.0);
+    NearPoints near;
+    for (int i = 0; i < 100'000; ++i) {  // hours, if each met all the empty slabs of cells
+        grid.gather(points.col(0), 1e30, 2.0F, near);
+        ASSERT_EQ(near.size, 3U);
+    }
+}
+
 TEST(TargetArea, ToFrameAgreesWithTheFramesOwnTransform) {
     const Points points = test::random_box(200, 1);
     Frame frame = frame_at({0.5, 0.4, 0.6}, 0.4);
