@@ -232,7 +232,9 @@ double measure_spacing(const Points& points, const PointGrid& grid, double cell,
     }
     result.mean_spacing = sum / static_cast<double>(around.size());
     result.density_radius = median(full);
-    return median(small);
+    // Of points that lie on each other by the dozen, the small ball has no radius.
+    const double radius = median(small);
+    return radius > 0 ? radius : result.mean_spacing;
 }
 
 }  // namespace

@@ -139,5 +139,23 @@ TEST_P(MeasureOn, IsFiniteAndPositiveOrAnError) {
 INSTANTIATE_TEST_SUITE_P(Clouds, MeasureOn, testing::ValuesIn(test::awkward_clouds()),
                          test::CloudName());
 
+TEST(Measure, PointsThatLieOnEachOtherByTheDozenHaveANoise) {
+    Points points(3, 600);
+    for (Eigen::Index i = 0; i < points.cols(); ++i) {
+        points.col(i) = Eigen::Vector3d(double(i % 6), double(i % 2), 0) +
+                        (i < 6 ? 1e-3 : 0.0) * Eigen::Vector3d::Ones();
+    }
+    const Measurements measured = measure(points, {});
+    EXPECT_TRUE(std::isfinite(measured.noise));
+    EXPECT_GT(measured.mean_spacing, 0);
+}
+
+TEST(Measure, OnePointBeyondAllMeasureHidesTheOthersButIsNoEnd) {
+    Points points = test::random_box(500, 2);
+    points.col(7) = Eigen::Vector3d(1e38, -3e37, 2e38);
+    const Measurements measured = measure(points, {});
+    EXPECT_TRUE(std::isfinite(measured.noise));
+}
+
 }  // namespace
 }  // namespace lpf
