@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t kSpacingSample = 4096;
 constexpr std::size_t kNoiseSample = 400;
 constexpr std::size_t kPointsInBall = 150;
+constexpr int kMostDoublings = 32;    // from a cell to the whole shape
 constexpr double kPointsInCell = 40;  // of the grid that they are looked for in, at most
 constexpr std::size_t kFewestForPlane = 8;
 
@@ -27,6 +28,7 @@ constexpr std::size_t kPointsInSmallBall = 24;
 constexpr double kSigmasInBall = 4.0;
 constexpr double kGrowth = 1.2;
 constexpr double kMostGrowth = 1.4;
+constexpr int kMostSteps = 1000;      // coordinates may be as large as numbers go
 constexpr double kShareOfStep = 0.9;  // of the way to the ball that the spread asks for
 constexpr double kNearlyWide = 1.1;
 
@@ -137,7 +139,7 @@ Eigen::Vector3d mean_of(const NearPoints& ball) {
 double noise_around(const PointGrid& grid, const Eigen::Vector3d& point, double radius,
                     double largest, NearPoints& ball, std::vector<double>& heights) {
     double growth = kGrowth;
-    for (; radius <= largest; radius *= growth) {
+    for (int i = 0; i < kMostSteps && radius <= largest; ++i, radius *= growth) {
         growth = kGrowth;
         grid.gather(point, radius, 1.0F, ball);
         if (ball.size < kFewestForPlane) continue;
@@ -179,13 +181,13 @@ struct Surroundings {
 };
 
 Surroundings surroundings(const PointGrid& grid, const Eigen::Vector3d& point, double radius,
-                          double largest, std::size_t points_in_ball, NearPoints& ball,
+                          std::size_t points_in_ball, NearPoints& ball,
                           std::vector<float>& squared) {
-    do {
-        grid.gather(point, radius, 1.0F, ball);
+    grid.gather(point, radius, 1.0F, ball);
+    for (int i = 0; i < kMostDoublings && ball.size < points_in_ball; ++i) {
         radius *= 2;
-    } while (ball.size < points_in_ball && radius <= 4 * largest);
-    radius /= 2;
+        grid.gather(point, radius, 1.0F, ball);
+    }
     squared.resize(ball.size);
     for (std::size_t i = 0; i < ball.size; ++i) {
         squared[i] = ball.x[i] * ball.x[i] + ball.y[i] * ball.y[i] + ball.z[i] * ball.z[i];
@@ -210,15 +212,14 @@ double measure_spacing(const Points& points, const PointGrid& grid, double cell,
     const std::vector<Eigen::Index> chosen = sample(points, kSpacingSample);
     const std::size_t k = std::min(kPointsInBall, result.points);
     std::vector<Surroundings> around(chosen.size());
-    parallel_for(execution, chosen.size(), 64,
-                 [&](std::size_t begin, std::size_t end, std::size_t) {
-                     NearPoints ball;
-                     std::vector<float> squared;
-                     for (std::size_t i = begin; i < end; ++i) {
-                         around[i] = surroundings(grid, points.col(chosen[i]), 1.5 * cell,
-                                                  result.diagonal, k, ball, squared);
-                     }
-                 });
+    parallel_for(
+        execution, chosen.size(), 64, [&](std::size_t begin, std::size_t end, std::size_t) {
+            NearPoints ball;
+            std::vector<float> squared;
+            for (std::size_t i = begin; i < end; ++i) {
+                around[i] = surroundings(grid, points.col(chosen[i]), 1.5 * cell, k, ball, squared);
+            }
+        });
     std::erase_if(around, [](const Surroundings& s) { return s.nearest < 0; });
     result.mean_spacing = result.density_radius = result.diagonal;
     if (around.empty()) return result.diagonal;

@@ -157,5 +157,15 @@ TEST(Measure, OnePointBeyondAllMeasureHidesTheOthersButIsNoEnd) {
     EXPECT_TRUE(std::isfinite(measured.noise));
 }
 
+TEST(Measure, ShapesAsSmallOrAsLargeAsNumbersGoAreMeasuredToAnEnd) {
+    for (const double size : {5e-324, 1e-300, 1e200, 1.7e308}) {
+        const Points points = size * test::random_box(300, 4);
+        try {
+            (void)measure(points, {});
+        } catch (const Error&) {  // too small to have an extent
+        }
+    }
+}
+
 }  // namespace
 }  // namespace lpf
