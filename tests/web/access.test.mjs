@@ -40,7 +40,7 @@ async function* states(page) {
     await drop(page, { name: 'broken.ply', bytes: broken_ply() });
     await page.waitForSelector('#fault h2');
     yield 'error';
-    await drop(page, { name: 'ball.ply', bytes: sphere_ply(5000) });
+    await drop(page, { name: 'ball.ply', bytes: sphere_ply(40_000) });
     await ready_to_run(page);
     await page.click('#parameters summary');
     yield 'set up, with parameters';
