@@ -10,8 +10,6 @@
 namespace lpf {
 namespace {
 
-constexpr std::size_t kPointsPerChunk = 1U << 16U;
-
 /// Eq. 12, with q the current position: the full step, or the share gamma / (1 + gamma) of it.
 double step_share(double gamma) { return gamma > 0 ? gamma / (1 + gamma) : 1.0; }
 

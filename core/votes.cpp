@@ -15,8 +15,6 @@ namespace {
 /// The error that no field's representation is trusted below [radius].
 constexpr float kErrorFloor = 1e-4F;
 
-constexpr std::size_t kPointsPerChunk = 1U << 16U;
-
 /// A vote counts so much where no points of the LPF lie.
 constexpr float kLeastDensity = 0.001F;
 

@@ -5,6 +5,7 @@
 
 #include "core/base/blur.h"
 #include "core/base/multiversion.h"
+#include "core/base/polynomial.h"
 
 namespace lpf::kernels {
 namespace {
@@ -12,10 +13,6 @@ namespace {
 constexpr std::size_t kBlock = 256;
 
 using Rows = float[kCreaseRows][kBlock];
-
-inline float parabola(const float* c, float x, float y) {
-    return c[0] + x * (c[1] + x * c[3] + y * c[4]) + y * (c[2] + y * c[5]);
-}
 
 /// The rows at a block of points; zero where a point is no member, and behind the last.
 LPF_MULTIVERSION

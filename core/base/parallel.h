@@ -24,6 +24,9 @@ struct Execution {
 void parallel_for(const Execution& execution, std::size_t n, std::size_t chunk_size,
                   const std::function<void(std::size_t, std::size_t, std::size_t)>& body);
 
+/// Chunks of loops that do little for each point of a cloud.
+inline constexpr std::size_t kPointsPerChunk = 1U << 16U;
+
 /// Number of chunks that `parallel_for` makes of n items.
 [[nodiscard]] constexpr std::size_t chunk_count(std::size_t n, std::size_t chunk_size) {
     return (n + chunk_size - 1) / chunk_size;

@@ -2,6 +2,7 @@
 
 #include "core/base/exponential.h"
 #include "core/base/multiversion.h"
+#include "core/base/polynomial.h"
 
 namespace lpf::kernels {
 namespace {
@@ -11,11 +12,25 @@ inline float within(float value, float limit) {
     return least < limit ? least : limit;
 }
 
-inline float parabola(const float* c, float x, float y) {
-    return c[0] + x * (c[1] + x * c[3] + y * c[4]) + y * (c[2] + y * c[5]);
-}
+/// Lower left of four values of an image, and the shares of the right and the upper ones.
+struct Place {
+    int at;
+    float right;
+    float up;
+};
 
-inline float cubic(const float* c, float x) { return c[0] + x * (c[1] + x * (c[2] + x * c[3])); }
+inline Place place_in(const Image& image, float x, float y) {
+    const float column =
+        within(x * image.scale_x + image.offset_x, static_cast<float>(image.columns - 1));
+    const float row =
+        within(y * image.scale_y + image.offset_y, static_cast<float>(image.rows - 1));
+    int left = static_cast<int>(column);
+    int low = static_cast<int>(row);
+    left = left < image.columns - 2 ? left : image.columns - 2;
+    low = low < image.rows - 2 ? low : image.rows - 2;
+    return {low * image.columns + left, column - static_cast<float>(left),
+            row - static_cast<float>(low)};
+}
 
 }  // namespace
 
@@ -23,22 +38,12 @@ LPF_MULTIVERSION
 void read_image(const Image& image, int planes, const float* x, const float* y, std::size_t n,
                 float* const* out) {
     const int columns = image.columns;
-    const auto last_column = static_cast<float>(columns - 1);
-    const auto last_row = static_cast<float>(image.rows - 1);
     for (int plane = 0; plane < planes; ++plane) {
         const float* const values = image.values + plane * columns * image.rows;
         float* const to = out[plane];
 #pragma omp simd
         for (std::size_t i = 0; i < n; ++i) {
-            const float column = within(x[i] * image.scale_x + image.offset_x, last_column);
-            const float row = within(y[i] * image.scale_y + image.offset_y, last_row);
-            int left = static_cast<int>(column);
-            int low = static_cast<int>(row);
-            left = left < columns - 2 ? left : columns - 2;
-            low = low < image.rows - 2 ? low : image.rows - 2;
-            const float right = column - static_cast<float>(left);
-            const float up = row - static_cast<float>(low);
-            const int at = low * columns + left;
+            const auto [at, right, up] = place_in(image, x[i], y[i]);
             const float lower = values[at] + right * (values[at + 1] - values[at]);
             const float upper =
                 values[at + columns] + right * (values[at + columns + 1] - values[at + columns]);
@@ -68,23 +73,14 @@ void add_to_image(const Image& image, const float* x, const float* y, const floa
                   std::size_t n, float* values) {
     constexpr std::size_t kBlock = 64;
     const int columns = image.columns;
-    const auto last_column = static_cast<float>(columns - 1);
-    const auto last_row = static_cast<float>(image.rows - 1);
     int cell[kBlock];
     float share[4][kBlock];
     for (std::size_t begin = 0; begin < n; begin += kBlock) {
         const std::size_t size = n - begin < kBlock ? n - begin : kBlock;
 #pragma omp simd
         for (std::size_t i = 0; i < size; ++i) {
-            const float column = within(x[begin + i] * image.scale_x + image.offset_x, last_column);
-            const float row = within(y[begin + i] * image.scale_y + image.offset_y, last_row);
-            int left = static_cast<int>(column);
-            int low = static_cast<int>(row);
-            left = left < columns - 2 ? left : columns - 2;
-            low = low < image.rows - 2 ? low : image.rows - 2;
-            const float right = column - static_cast<float>(left);
-            const float up = row - static_cast<float>(low);
-            cell[i] = low * columns + left;
+            const auto [at, right, up] = place_in(image, x[begin + i], y[begin + i]);
+            cell[i] = at;
             share[0][i] = weight[begin + i] * (1 - right) * (1 - up);
             share[1][i] = weight[begin + i] * right * (1 - up);
             share[2][i] = weight[begin + i] * (1 - right) * up;

@@ -5,16 +5,11 @@
 
 #include "core/base/blur.h"
 #include "core/base/kernels.h"
+#include "core/base/polynomial.h"
 #include "core/base/vote_kernels.h"
 
 namespace lpf {
 namespace {
-
-float parabola(const float* c, float x, float y) {
-    return c[0] + x * (c[1] + x * c[3] + y * c[4]) + y * (c[2] + y * c[5]);
-}
-
-float cubic(const float* c, float x) { return c[0] + x * (c[1] + x * (c[2] + x * c[3])); }
 
 float height(const Piece& piece, float x, float y) {
     const float smooth = parabola(piece.coefficients, x, y);

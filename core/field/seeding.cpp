@@ -51,8 +51,6 @@ constexpr float kCaredWithin = 1.5F;
 constexpr double kCaredShare = 0.7;
 
 constexpr std::size_t kSeedsPerChunk = 32;
-constexpr std::size_t kPointsPerChunk = 1U << 16U;
-
 using Indices = std::vector<std::uint32_t>;
 
 /// What has been done for a point: later values count for more.

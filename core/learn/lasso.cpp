@@ -68,7 +68,8 @@ void start(Descent& descent) {
 /// Where correlated atoms make the sweeps crawl: with the signs held, Eq. 3 is a quadratic, so walk
 /// straight to its minimum, or to the first coefficient that reaches zero on the way. Atoms that
 /// depend linearly on those before them stay where they are.
-void jump_to_minimum(Descent& descent, ActiveSet& active) {
+void jump_to_minimum(Descent& descent) {
+    ActiveSet active;
     find_non_zero(descent, active);
     const std::size_t n = active.count;
     const std::size_t stride = kernels::padded_row(n);
@@ -102,13 +103,12 @@ int descend(Descent& descent, float tolerance, int max_sweeps) {
     ActiveSet all;
     std::iota(all.atom.begin(), all.atom.begin() + descent.d, 0U);
     all.count = descent.d;
-    ActiveSet active;
-    jump_to_minimum(descent, active);
+    jump_to_minimum(descent);
     int sweeps = 0;
     while (sweeps < max_sweeps) {
         ++sweeps;
         if (sweep(descent, all) <= tolerance) break;
-        jump_to_minimum(descent, active);
+        jump_to_minimum(descent);
     }
     return sweeps;
 }

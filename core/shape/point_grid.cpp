@@ -13,8 +13,6 @@ namespace {
 /// Cells along an axis at most: three axes must fit one 63-bit key.
 constexpr double kMaximumCells = 1 << 20;
 
-constexpr std::size_t kPointsPerChunk = 1U << 16U;
-
 /// Of a squared radius, so that no rounding loses a cell that the ball only touches.
 constexpr double kRoundingUp = 1 + 1e-6;
 

@@ -43,8 +43,6 @@ private:
     Round rounds_[4];
 };
 
-constexpr std::size_t kPointsPerChunk = 1U << 16U;
-
 /// Random places of large clouds are far away in memory: they are fetched so many points before
 /// they are looked at.
 constexpr std::size_t kAhead = 24;
