@@ -66,10 +66,16 @@ constexpr float kOneSided = 0.75F;
 /// A place so near a point needs no others around it [support distances].
 constexpr float kVeryNear = 0.25F;
 
+/// On a slope, the nearest point may be further off than it is in the plane, up to this many times.
+/// What a piece says beyond that, where it bends away from its last points, is no part of the
+/// shape.
+constexpr float kSlope = 1.2F;
+
 /// Whether target points lie around places of the plane: sorted into cells of one support distance.
 class Support {
 public:
-    Support(const TargetArea& target, float distance) : distance_(distance) {
+    /// @param target flattened, as the piece says
+    Support(const Piece& piece, const TargetArea& target, float distance) : distance_(distance) {
         side_ = static_cast<int>(std::min(256.0F, std::ceil(2 * kReach / distance))) + 1;
         std::vector<int> cell(target.size);
         first_.assign(static_cast<std::size_t>(side_ * side_) + 2, 0);
@@ -81,23 +87,28 @@ public:
         points_.resize(target.size);
         for (std::size_t i = 0; i < target.size; ++i) {
             const std::size_t at = first_[static_cast<std::size_t>(cell[i]) + 1]++;
-            points_[at] = {target.x[i], target.y[i]};
+            points_[at] = {{target.x[i], target.y[i]},
+                           Eigen::Vector3f(target.x[i], target.y[i], target.z[i]) +
+                               piece.mean(target.x[i], target.y[i])};
         }
     }
 
     /// A place is on the shape if a point is very near, or if one is within the distance and points
     /// within twice of it do not all lie to one side.
-    [[nodiscard]] bool covers(float x, float y) const {
-        const Eigen::Vector2f place(x, y);
+    /// @param on_piece where the piece has the place
+    [[nodiscard]] bool covers(const Eigen::Vector2f& place, const Eigen::Vector3f& on_piece) const {
         float nearest = std::numeric_limits<float>::infinity();
-        for_each_near(place, 1, [&](const Eigen::Vector2f& apart) {
+        float nearest_in_space = nearest;
+        for_each_near(place, 1, [&](const Eigen::Vector2f& apart, const Eigen::Vector3f& point) {
             nearest = std::min(nearest, apart.squaredNorm());
+            nearest_in_space = std::min(nearest_in_space, (point - on_piece).squaredNorm());
         });
         if (nearest > distance_ * distance_) return false;
+        if (nearest_in_space > kSlope * kSlope * distance_ * distance_) return false;
         if (nearest <= kVeryNear * kVeryNear * distance_ * distance_) return true;
         float count = 0;
         Eigen::Vector2f directions = Eigen::Vector2f::Zero();
-        for_each_near(place, 2, [&](const Eigen::Vector2f& apart) {
+        for_each_near(place, 2, [&](const Eigen::Vector2f& apart, const Eigen::Vector3f&) {
             const float squared = apart.squaredNorm();
             if (squared > 4 * distance_ * distance_) return;
             directions += apart / std::sqrt(std::max(squared, 1e-12F));
@@ -109,12 +120,18 @@ public:
 private:
     static constexpr float kReach = 2.0F;  // target areas are no wider
 
+    struct Point {
+        Eigen::Vector2f in_plane;
+        Eigen::Vector3f in_space;
+    };
+
     [[nodiscard]] int cell_of(float coordinate) const {
         const float cell = std::max(distance_, 2 * kReach / 256.0F);
         return std::clamp(static_cast<int>((coordinate + kReach) / cell), 0, side_ - 1);
     }
 
-    /// Visits the points in the cells up to `reach` away from that of the place: from it to each.
+    /// Visits the points in the cells up to `reach` away from that of the place: from it to each,
+    /// and where that is in space.
     template <typename Visit>
     void for_each_near(const Eigen::Vector2f& place, int reach, const Visit& visit) const {
         const int column = cell_of(place.x());
@@ -124,15 +141,15 @@ private:
             const auto last =
                 static_cast<std::size_t>(j * side_ + std::min(side_ - 1, column + reach));
             for (std::size_t i = first_[begin]; i < first_[last + 1]; ++i) {
-                visit(points_[i] - place);
+                visit(points_[i].in_plane - place, points_[i].in_space);
             }
         }
     }
 
     float distance_;
     int side_ = 1;
-    std::vector<std::size_t> first_;       // of each cell, into points_
-    std::vector<Eigen::Vector2f> points_;  // cell by cell
+    std::vector<std::size_t> first_;  // of each cell, into points_
+    std::vector<Point> points_;       // cell by cell
 };
 
 /// A field that jumps further between neighbouring nodes leaps from one part of the shape to
@@ -172,12 +189,13 @@ void propose(const Frame& frame, const Piece& piece, const Pattern& pattern,
              const std::vector<Eigen::Vector2f>& places, std::optional<float> support,
              std::vector<Eigen::Vector3d>& proposals) {
     std::optional<Support> supported;
-    if (support) supported.emplace(target, *support);
+    if (support) supported.emplace(piece, target, *support);
     for (const Eigen::Vector2f& place : places) {
         const auto p = displace(pattern, field, place);
-        if (!p || (supported && !supported->covers(p->x(), p->y()))) continue;
+        if (!p) continue;
         Eigen::Vector3f on_piece = *p + piece.shape(p->x(), p->y());
         if (piece.is_curve()) on_piece.y() -= place.y();
+        if (supported && !supported->covers(p->head<2>(), on_piece)) continue;
         const Eigen::Vector3f gap(0, 0, piece.half_gap(p->x(), p->y()));
         proposals.push_back(frame.to_world(on_piece + gap));
         if (gap.z() > 0) proposals.push_back(frame.to_world(on_piece - gap));

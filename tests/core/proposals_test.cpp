@@ -219,5 +219,26 @@ TEST(ResampleSources, AreTheNearestPointsOfTheInputAsItWas) {
     }
 }
 
+TEST(Proposals, OfAPieceThatBendsAwayFromItsPointsStayNearThem) {
+    Shape plane;
+    plane.cloud.points = test::make_plane({.points = 2000}).points;
+    ResampleParams params;
+    params.analysis.radius = 0.35;
+    params.analysis.iterations = 1;
+    params.analysis.atoms = 1;
+    params.target_spacing = 0.05;
+    params.support = 0.1;
+    FieldSet fields(plane, params.analysis, {});
+    const AnalysisResult analysis = analyze(fields, params.analysis, {});
+    Piece bent;
+    bent.dimension = kSurface;
+    bent.coefficients[3] = 4.0F;  // at the rim of the disk four radii above the plane
+    bent.reach = 10.0F;
+    fields.pieces.assign(fields.size(), bent);
+    const Candidates all = propose(fields, analysis, params, params.target_spacing, {});
+    ASSERT_GT(all.size(), fields.size());
+    EXPECT_LT(all.points.row(2).cwiseAbs().maxCoeff(), 2 * params.support);
+}
+
 }  // namespace
 }  // namespace lpf
