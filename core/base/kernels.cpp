@@ -169,6 +169,31 @@ void solve_definite(double* a, std::size_t n, double* x) {
 }
 
 LPF_MULTIVERSION
+std::size_t find_moves(const float* diagonal, const float* inverse_diagonal, float threshold,
+                       float tolerance, const float* code, const float* residual, std::size_t d,
+                       unsigned* atoms) {
+    std::size_t count = 0;
+    for (std::size_t begin = 0; begin < d; begin += kLanes) {
+        const std::size_t size = d - begin < kLanes ? d - begin : kLanes;
+        float moves[kLanes];
+#pragma omp simd
+        for (std::size_t i = 0; i < size; ++i) {
+            const std::size_t k = begin + i;
+            const float pull = residual[k] + diagonal[k] * code[k];
+            const float excess = std::abs(pull) - threshold;
+            const float magnitude = (excess > 0 ? excess : 0) * inverse_diagonal[k];
+            moves[i] = std::abs(std::copysign(magnitude, pull) - code[k]);
+        }
+        // Written always and counted if it moves: no branch to be foretold.
+        for (std::size_t i = 0; i < size; ++i) {
+            atoms[count] = static_cast<unsigned>(begin + i);
+            count += static_cast<std::size_t>(moves[i] > tolerance);
+        }
+    }
+    return count;
+}
+
+LPF_MULTIVERSION
 float descent_sweep(const float* gram, std::size_t d, float threshold,
                     const float* inverse_diagonal, const unsigned* atoms, std::size_t count,
                     float* code, float* residual) {

@@ -42,6 +42,14 @@ inline constexpr std::size_t kRowBlock = 8;
 /// Destroyed; has room for one more row
 void solve_definite(double* a, std::size_t n, double* x);
 
+/// Finds the atoms whose coefficients coordinate descent would move by more than the tolerance,
+/// each from the code as it is.
+/// @param diagonal of the Gram matrix  @param inverse_diagonal as for descent_sweep
+/// @param atoms out, ascending; has room for d + 1  @returns how many
+std::size_t find_moves(const float* diagonal, const float* inverse_diagonal, float threshold,
+                       float tolerance, const float* code, const float* residual, std::size_t d,
+                       unsigned* atoms);
+
 /// One sweep of coordinate descent on |V - D a|^2 + 2 threshold |a|_1 over the atoms listed.
 /// @param gram of D, d x d  @param inverse_diagonal of gram, 0 for an atom of norm 0
 /// @param code, residual d coefficients a and d correlations D'(V - D a), in and out

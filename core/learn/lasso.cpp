@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "core/base/kernels.h"
 #include "core/learn/packed_cholesky.h"
@@ -20,12 +19,13 @@ struct Descent {
     float threshold;  // lambda / 2, as Eq. 3 has no factor 1/2
     float* code;
     std::array<float, kMaxAtoms> residual;
+    std::array<float, kMaxAtoms> diagonal;
     std::array<float, kMaxAtoms> inverse_diagonal;  // 0 for an atom of norm 0
 };
 
 /// Some of the atoms, in ascending order.
 struct ActiveSet {
-    std::array<unsigned, kMaxAtoms> atom;
+    std::array<unsigned, kMaxAtoms + 1> atom;
     std::size_t count = 0;
 };
 
@@ -39,7 +39,8 @@ float sweep(Descent& descent, const ActiveSet& atoms) {
 void find_non_zero(const Descent& descent, ActiveSet& active) {
     active.count = 0;
     for (std::size_t k = 0; k < descent.d; ++k) {
-        if (descent.code[k] != 0) active.atom[active.count++] = static_cast<unsigned>(k);
+        active.atom[active.count] = static_cast<unsigned>(k);
+        active.count += static_cast<std::size_t>(descent.code[k] != 0);
     }
 }
 
@@ -59,6 +60,7 @@ void correlate(Descent& descent) {
 void start(Descent& descent) {
     for (std::size_t k = 0; k < descent.d; ++k) {
         const float diagonal = descent.gram[k * descent.d + k];
+        descent.diagonal[k] = diagonal;
         descent.inverse_diagonal[k] = diagonal > 0 ? 1 / diagonal : 0;
         if (!(diagonal > 0)) descent.code[k] = 0;
     }
@@ -97,17 +99,19 @@ void jump_to_minimum(Descent& descent) {
     correlate(descent);
 }
 
-/// Exact steps on the non-zero atoms, each after a sweep over all of them; a code that was nearly
-/// right is so after the first step, and one sweep says so.
+/// Exact steps on the non-zero atoms, each after a sweep over those that are not where they belong;
+/// a code that was nearly right is so after the first step.
 int descend(Descent& descent, float tolerance, int max_sweeps) {
-    ActiveSet all;
-    std::iota(all.atom.begin(), all.atom.begin() + descent.d, 0U);
-    all.count = descent.d;
+    ActiveSet moving;
     jump_to_minimum(descent);
     int sweeps = 0;
     while (sweeps < max_sweeps) {
+        moving.count = kernels::find_moves(descent.diagonal.data(), descent.inverse_diagonal.data(),
+                                           descent.threshold, tolerance, descent.code,
+                                           descent.residual.data(), descent.d, moving.atom.data());
+        if (moving.count == 0) break;
         ++sweeps;
-        if (sweep(descent, all) <= tolerance) break;
+        (void)sweep(descent, moving);
         jump_to_minimum(descent);
     }
     return sweeps;

@@ -154,6 +154,27 @@ TEST(Kernels, SolveDefiniteSolvesAndLeavesOutWhatDepends) {
     }
 }
 
+TEST_P(KernelsOf, FindMovesNamesWhatOneStepOfDescentWouldMove) {
+    const Floats residual = random_floats(n, 1);
+    Floats code = random_floats(n, 2);
+    for (std::size_t k = 0; k < n; k += 2) code[k] = 0;
+    Floats inverse(n, 1.0F);
+    Floats diagonal(n, 1.0F);
+    if (n > 4) diagonal[4] = inverse[4] = code[4] = 0;  // an atom of norm 0 stays where it is
+    constexpr float kThreshold = 0.3F;
+    constexpr float kTolerance = 0.2F;
+    std::vector<unsigned> expected;
+    for (unsigned k = 0; k < n; ++k) {
+        const float pull = residual[k] + diagonal[k] * code[k];
+        const float wanted = std::copysign(std::max(0.0F, std::abs(pull) - kThreshold), pull);
+        if (std::abs(wanted * inverse[k] - code[k]) > kTolerance) expected.push_back(k);
+    }
+    std::vector<unsigned> atoms(n + 1);
+    atoms.resize(kernels::find_moves(diagonal.data(), inverse.data(), kThreshold, kTolerance,
+                                     code.data(), residual.data(), n, atoms.data()));
+    EXPECT_EQ(atoms, expected);
+}
+
 TEST_P(KernelsOf, AddScaledAddsAndStopsAtTheEnd) {
     const Floats in = random_floats(n + 1, 5);
     Floats out = random_floats(n + 1, 6);
