@@ -1,6 +1,7 @@
 #include "core/analysis.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -130,11 +131,15 @@ private:
         Coder::correlate(dictionary_,
                          std::span(block.fields).first(block.count * dictionary_.stride()),
                          block.correlations);
+        std::array<LassoTask, kFieldsOfBlock> tasks;
         for (std::size_t i = 0; i < block.count; ++i) {
             const std::size_t j = block.number[i];
-            const auto correlations = std::span(block.correlations).subspan(i * d, d);
-            coder_.solve(gram, correlations, codes_[j], fields_.lambda_share(j));
-            if (debiased) debias({gram, correlations, 0.0F}, codes_[j]);
+            tasks[i] = {std::span(block.correlations).subspan(i * d, d),
+                        coder_.lambda * fields_.lambda_share(j), codes_[j]};
+        }
+        coder_.solve(gram, std::span(tasks).first(block.count));
+        for (std::size_t i = 0; debiased && i < block.count; ++i) {
+            debias({gram, tasks[i].correlations, 0.0F}, tasks[i].code);
         }
     }
 

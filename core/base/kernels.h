@@ -28,36 +28,6 @@ void add_scaled(float scale, const float* in, float* out, std::size_t n);
 void combine_rows(const float* rows, std::size_t stride, std::size_t n, const unsigned* row,
                   const float* coefficient, std::size_t count, float* out);
 
-inline constexpr std::size_t kRowBlock = 8;
-
-/// Columns that a row of solve_definite takes, and doubles that it needs in all.
-[[nodiscard]] constexpr std::size_t padded_row(std::size_t n) {
-    return n / kRowBlock * kRowBlock + kRowBlock;
-}
-[[nodiscard]] constexpr std::size_t room_to_solve(std::size_t n) { return (n + 1) * padded_row(n); }
-
-/// Solves the symmetric positive definite A x = b. Unknowns that depend linearly on those before
-/// them become 0.
-/// @param a n rows of padded_row(n) values: those of A from the diagonal on, b, and zeros.
-/// Destroyed; has room for one more row
-void solve_definite(double* a, std::size_t n, double* x);
-
-/// Finds the atoms whose coefficients coordinate descent would move by more than the tolerance,
-/// each from the code as it is.
-/// @param diagonal of the Gram matrix  @param inverse_diagonal as for descent_sweep
-/// @param atoms out, ascending; has room for d + 1  @returns how many
-std::size_t find_moves(const float* diagonal, const float* inverse_diagonal, float threshold,
-                       float tolerance, const float* code, const float* residual, std::size_t d,
-                       unsigned* atoms);
-
-/// One sweep of coordinate descent on |V - D a|^2 + 2 threshold |a|_1 over the atoms listed.
-/// @param gram of D, d x d  @param inverse_diagonal of gram, 0 for an atom of norm 0
-/// @param code, residual d coefficients a and d correlations D'(V - D a), in and out
-/// @returns the largest move of a coefficient
-float descent_sweep(const float* gram, std::size_t d, float threshold,
-                    const float* inverse_diagonal, const unsigned* atoms, std::size_t count,
-                    float* code, float* residual);
-
 /// Raw moments of two point sets a = u + v and b = u + w, each three channels of n floats.
 struct PairMoments {
     float a[3];   ///< sum a

@@ -1,6 +1,7 @@
 #include "core/learn/dictionary_learning.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/base/kernels.h"
 #include "core/base/random.h"
@@ -18,22 +19,25 @@ DictionaryStatistics encode_sample(const FieldSample& sample, const Coder& coder
     std::vector<DictionaryStatistics> parts(
         chunk_count(sample.count(), kFieldsPerChunk),
         DictionaryStatistics(dictionary.atoms(), dictionary.stride()));
-    parallel_for(
-        execution, "learn", "fields", sample.count(), kFieldsPerChunk,
-        [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-            const auto d = static_cast<std::size_t>(dictionary.atoms());
-            std::vector<float> correlations(kFieldsOfBlock * d);
-            for (std::size_t i = begin; i < end; ++i) {
-                const std::size_t k = (i - begin) % kFieldsOfBlock;
-                if (k == 0) {
-                    const std::size_t size = std::min(kFieldsOfBlock, end - i);
-                    Coder::correlate(dictionary, sample.some(i, size), correlations);
-                }
-                const float share = sample.lambda_share.empty() ? 1.0F : sample.lambda_share[i];
-                coder.solve(gram, std::span(correlations).subspan(k * d, d), codes[i], share);
-                parts[chunk].add(codes[i], sample[i]);
-            }
-        });
+    parallel_for(execution, "learn", "fields", sample.count(), kFieldsPerChunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                     const auto d = static_cast<std::size_t>(dictionary.atoms());
+                     std::vector<float> correlations(kFieldsOfBlock * d);
+                     std::array<LassoTask, kFieldsOfBlock> tasks;
+                     for (std::size_t first = begin; first < end; first += kFieldsOfBlock) {
+                         const std::size_t size = std::min(kFieldsOfBlock, end - first);
+                         Coder::correlate(dictionary, sample.some(first, size), correlations);
+                         for (std::size_t k = 0; k < size; ++k) {
+                             tasks[k] = {std::span(correlations).subspan(k * d, d),
+                                         coder.lambda * sample.share_of(first + k),
+                                         codes[first + k]};
+                         }
+                         coder.solve(gram, std::span(tasks).first(size));
+                         for (std::size_t i = first; i < first + size; ++i) {
+                             parts[chunk].add(codes[i], sample[i]);
+                         }
+                     }
+                 });
     for (std::size_t c = 1; c < parts.size(); ++c) parts[0].add(parts[c]);
     return std::move(parts.front());
 }
@@ -44,7 +48,8 @@ void Coder::encode(const Dictionary& dictionary, std::span<const float> gram,
                    std::span<const float> field, std::span<float> correlations,
                    std::span<float> code, float lambda_share) const {
     correlate(dictionary, field, correlations);
-    solve(gram, correlations, code, lambda_share);
+    const LassoTask task{correlations, lambda * lambda_share, code};
+    solve(gram, {&task, 1});
 }
 
 void Coder::correlate(const Dictionary& dictionary, std::span<const float> fields,
@@ -59,13 +64,13 @@ void Coder::correlate(const Dictionary& dictionary, std::span<const float> field
     }
 }
 
-void Coder::solve(std::span<const float> gram, std::span<const float> correlations,
-                  std::span<float> code, float lambda_share) const {
-    const LassoProblem problem{gram, correlations, lambda * lambda_share};
+void Coder::solve(std::span<const float> gram, std::span<const LassoTask> tasks) const {
     if (method == LassoMethod::Lars) {
-        solve_lars(problem, code);
+        for (const LassoTask& task : tasks) {
+            solve_lars({gram, task.correlations, task.lambda}, task.code);
+        }
     } else {
-        solve_coordinate_descent(problem, code);
+        solve_coordinate_descent(gram, tasks);
     }
 }
 

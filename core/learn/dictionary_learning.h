@@ -25,11 +25,10 @@ struct Coder {
                 float lambda_share = 1.0F) const;
 
     /// What comes before and after: c = D'V of several fields at once, one behind the other; and
-    /// the code of one of them.
+    /// their codes.
     static void correlate(const Dictionary& dictionary, std::span<const float> fields,
                           std::span<float> correlations);
-    void solve(std::span<const float> gram, std::span<const float> correlations,
-               std::span<float> code, float lambda_share) const;
+    void solve(std::span<const float> gram, std::span<const LassoTask> tasks) const;
 };
 
 /// Fields that are coded together: enough that the dictionary is read once for all of them, few
@@ -43,6 +42,9 @@ struct FieldSample {
     std::vector<float> lambda_share = {};  ///< factor on lambda of each; empty = 1 for all
     [[nodiscard]] std::size_t count() const { return stride ? fields.size() / stride : 0; }
     [[nodiscard]] std::span<const float> operator[](std::size_t i) const { return some(i, 1); }
+    [[nodiscard]] float share_of(std::size_t i) const {
+        return lambda_share.empty() ? 1.0F : lambda_share[i];
+    }
     /// n fields from number i on.
     [[nodiscard]] std::span<const float> some(std::size_t i, std::size_t n) const {
         return {fields.data() + i * stride, n * stride};

@@ -23,12 +23,24 @@ struct LassoProblem {
     float lambda = 0.0F;                  ///< >= 0
 };
 
-/// Cyclic coordinate descent from the code given (warm start), until no coefficient moves by more
+/// Coordinate descent from the code given (warm start), until no coefficient would move by more
 /// than `tolerance`; where correlated atoms slow it down, exact steps on the active atoms help it
 /// along. Atoms of norm 0 get the coefficient 0.
 /// @param code d coefficients, in and out, d <= kMaxAtoms
-/// @returns sweeps used, over all atoms or over the active ones
+/// @returns sweeps used, over the coefficients that moved
 int solve_coordinate_descent(const LassoProblem& problem, std::span<float> code,
+                             float tolerance = 1e-5F, int max_sweeps = 200);
+
+/// A field to be coded with the Gram matrix that it shares with others.
+struct LassoTask {
+    std::span<const float> correlations;  ///< d
+    float lambda = 0.0F;                  ///< >= 0
+    std::span<float> code;                ///< d coefficients, in and out, d <= kMaxAtoms
+};
+
+/// The same for several fields, faster than one by one; no code depends on the others.
+/// @returns the most sweeps that any took
+int solve_coordinate_descent(std::span<const float> gram, std::span<const LassoTask> tasks,
                              float tolerance = 1e-5F, int max_sweeps = 200);
 
 /// Least angle regression with the LASSO modification (Efron et al. 2004; paper Sec. 3.3): the

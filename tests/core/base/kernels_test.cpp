@@ -124,57 +124,6 @@ TEST(Kernels, OfEquallyNearPointsTheFirstIsNearest) {
     for (const int p : point) EXPECT_EQ(p, 0);
 }
 
-/// A matrix with a dependent row, laid out as solve_definite wants it.
-TEST(Kernels, SolveDefiniteSolvesAndLeavesOutWhatDepends) {
-    for (const std::size_t n : {1U, 2U, 7U, 8U, 9U, 22U}) {
-        const Floats rows = random_floats(n * 40, n);
-        const auto product = [&](std::size_t i, std::size_t j) {
-            double sum = 0;
-            for (std::size_t k = 0; k < 40; ++k) {
-                sum += double{rows[i * 40 + k]} * double{rows[j * 40 + k]};
-            }
-            return sum;
-        };
-        const std::size_t dependent = n > 2 ? n / 2 : n;  // a copy of row 0
-        const auto source = [&](std::size_t i) { return i == dependent ? 0 : i; };
-        const std::size_t stride = kernels::padded_row(n);
-        std::vector<double> a(kernels::room_to_solve(n), 0.0);
-        std::vector<double> x(n, 99.0);
-        for (std::size_t i = 0; i < n; ++i) {
-            for (std::size_t j = i; j < n; ++j) a[i * stride + j] = product(source(i), source(j));
-            a[i * stride + n] = source(i) == 0 ? 1.0 : static_cast<double>(i);
-        }
-        kernels::solve_definite(a.data(), n, x.data());
-        EXPECT_TRUE(dependent == n || x[dependent] == 0.0);
-        for (std::size_t i = 0; i < n; ++i) {
-            double image = 0;
-            for (std::size_t j = 0; j < n; ++j) image += product(source(i), source(j)) * x[j];
-            EXPECT_NEAR(image, source(i) == 0 ? 1.0 : static_cast<double>(i), 1e-6);
-        }
-    }
-}
-
-TEST_P(KernelsOf, FindMovesNamesWhatOneStepOfDescentWouldMove) {
-    const Floats residual = random_floats(n, 1);
-    Floats code = random_floats(n, 2);
-    for (std::size_t k = 0; k < n; k += 2) code[k] = 0;
-    Floats inverse(n, 1.0F);
-    Floats diagonal(n, 1.0F);
-    if (n > 4) diagonal[4] = inverse[4] = code[4] = 0;  // an atom of norm 0 stays where it is
-    constexpr float kThreshold = 0.3F;
-    constexpr float kTolerance = 0.2F;
-    std::vector<unsigned> expected;
-    for (unsigned k = 0; k < n; ++k) {
-        const float pull = residual[k] + diagonal[k] * code[k];
-        const float wanted = std::copysign(std::max(0.0F, std::abs(pull) - kThreshold), pull);
-        if (std::abs(wanted * inverse[k] - code[k]) > kTolerance) expected.push_back(k);
-    }
-    std::vector<unsigned> atoms(n + 1);
-    atoms.resize(kernels::find_moves(diagonal.data(), inverse.data(), kThreshold, kTolerance,
-                                     code.data(), residual.data(), n, atoms.data()));
-    EXPECT_EQ(atoms, expected);
-}
-
 TEST_P(KernelsOf, AddScaledAddsAndStopsAtTheEnd) {
     const Floats in = random_floats(n + 1, 5);
     Floats out = random_floats(n + 1, 6);

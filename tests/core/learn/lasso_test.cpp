@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -280,6 +281,28 @@ TEST(Lasso, RespectsTheLimitOnSweeps) {
     std::vector<float> code(32, 0.0F);
     EXPECT_LE(solve_coordinate_descent(instance.at(0.01F), code, 0.0F, 7), 7);
     EXPECT_LT(lasso_objective(instance.at(0.01F), code), 0) << "it must have come down from zero";
+}
+
+TEST(Lasso, FieldsCodedTogetherGetTheCodesThatTheyGetAlone) {
+    constexpr std::size_t kAtoms = 20;
+    const Instance instance = make_instance(kAtoms, 1, 15);
+    for (const std::size_t fields : {0U, 2U, 8U, 19U}) {
+        std::vector<std::vector<float>> correlations(fields, instance.correlations);
+        std::vector<std::vector<float>> codes(fields, std::vector<float>(kAtoms, 0.0F));
+        std::vector<LassoTask> tasks;
+        for (std::size_t i = 0; i < fields; ++i) {
+            std::ranges::rotate(correlations[i], correlations[i].begin() + std::ptrdiff_t(i));
+            codes[i][i] = 1.0F;
+            tasks.push_back({correlations[i], 0.1F * static_cast<float>(i + 1), codes[i]});
+        }
+        solve_coordinate_descent(instance.gram, tasks);
+        for (std::size_t i = 0; i < fields; ++i) {
+            std::vector<float> alone(kAtoms, 0.0F);
+            alone[i] = 1.0F;
+            solve_coordinate_descent({instance.gram, correlations[i], tasks[i].lambda}, alone);
+            EXPECT_EQ(codes[i], alone) << "field " << i << " of " << fields;
+        }
+    }
 }
 
 TEST(Lasso, TakesTheLargestDictionary) {
