@@ -80,13 +80,7 @@ public:
                               std::move(energy_),     params_.radius, params_.lambda};
         result.residuals = std::move(residuals_);
         result.dimensions = fields_.dimensions;
-        result.usage.assign(static_cast<std::size_t>(result.codes.atoms()), 0.0F);
-        for (std::size_t j = 0; j < fields_.size(); ++j) {
-            for (std::size_t k = 0; k < result.usage.size(); ++k) {
-                if (result.codes[j][k] != 0.0F) result.usage[k] += 1.0F;
-            }
-        }
-        for (float& share : result.usage) share /= static_cast<float>(fields_.size());
+        result.usage = usage_of_atoms(result.codes);
         return result;
     }
 

@@ -4,14 +4,11 @@
 #include <numeric>
 
 #include "core/base/error.h"
-#include "core/field_set.h"
-#include "core/votes.h"
+#include "core/outer_iteration.h"
+#include "core/tiled_denoise.h"
 
 namespace lpf {
 namespace {
-
-/// Eq. 12, with q the current position: the full step, or the share gamma / (1 + gamma) of it.
-double step_share(double gamma) { return gamma > 0 ? gamma / (1 + gamma) : 1.0; }
 
 /// Moves the points to their consensus. @returns the RMS of the moves
 double move_points(const std::vector<std::uint32_t>& order, const Moves& moves, double step,
@@ -28,6 +25,22 @@ double move_points(const std::vector<std::uint32_t>& order, const Moves& moves, 
     const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
     return std::sqrt(sum / static_cast<double>(order.size()));
 }
+
+/// A large shape, tile by tile.
+DenoiseResult denoise_tiles_of(const Points& points, const DenoiseParams& params,
+                               const Execution& execution) {
+    TiledDenoising done = denoise_tiles(PointsInMemory(points), params, execution);
+    Points moved = points;
+    parallel_for(execution, done.moves.size(), kPointsPerChunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                     for (std::size_t i = begin; i < end; ++i) {
+                         moved.col(static_cast<Eigen::Index>(i)) += done.moves[i].cast<double>();
+                     }
+                 });
+    return {std::move(moved), std::move(done.rms_moves), std::move(done.analysis)};
+}
+
+}  // namespace
 
 void validate(const DenoiseParams& params) {
     validate(params.analysis);
@@ -47,36 +60,29 @@ void validate(const DenoiseParams& params) {
     }
 }
 
-}  // namespace
-
 DenoiseResult denoise(const Shape& shape, const DenoiseParams& params, const Execution& execution) {
     validate(params);
     check_points(shape.cloud.points);
+    if (shape.size() > kMostAtOnce) return denoise_tiles_of(shape.cloud.points, params, execution);
     Shape current;
     current.cloud.points = shape.cloud.points;
     std::vector<double> rms_moves;
-    AnalysisParams analysis_params = params.analysis;
+    DenoiseParams now = params;
 
     for (int i = 0;; ++i) {
-        const Execution outer = part_of(execution, static_cast<double>(i) / params.iterations,
-                                        static_cast<double>(i + 1) / params.iterations);
-        FieldSet fields(current, analysis_params, part_of(outer, 0.0, 0.05));
-        fields.optimise_poses(analysis_params.pose_iterations, part_of(outer, 0.05, 0.25));
-        AnalysisResult analysis = analyze(fields, analysis_params, part_of(outer, 0.25, 0.8));
-
-        const Moves moves =
-            vote(fields, analysis, {.sharp = params.sharp, .noise = analysis_params.noise},
-                 part_of(outer, 0.8, 1.0));
-        const double step = step_share(params.gamma) * params.analysis.radius;
-        rms_moves.push_back(
-            move_points(fields.grid().order(), moves, step, current.cloud.points, outer));
-
-        const bool still = rms_moves.back() <= params.stop_ratio * rms_moves.front();
-        if (i + 1 == params.iterations || (i > 0 && still) || rms_moves.back() == 0) {
+        const auto move = [&](const std::vector<std::uint32_t>& order, const Moves& moves) {
+            rms_moves.push_back(
+                move_points(order, moves, step_length(params), current.cloud.points, execution));
+        };
+        AnalysisResult analysis =
+            find_moves(current, now, {},
+                       part_of(execution, static_cast<double>(i) / params.iterations,
+                               static_cast<double>(i + 1) / params.iterations),
+                       move);
+        if (!goes_on(params, rms_moves)) {
             return {std::move(current.cloud.points), std::move(rms_moves), std::move(analysis)};
         }
-        analysis_params.initial_dictionary = std::move(analysis.dictionary);
-        analysis_params.noise *= kNoiseLeft;
+        prepare_next(std::move(analysis.dictionary), now);
     }
 }
 

@@ -31,6 +31,15 @@ MeshSamples mesh_samples(const Shape& shape, const AnalysisParams& params) {
     return sample_mesh(shape, kMeshSampleSpacing * params.radius);
 }
 
+SeedingParams seeding_params(const AnalysisParams& params) {
+    return {.radius = params.radius,
+            .spacing = params.seed_spacing,
+            .target_radius = params.target_radius,
+            .noise = params.noise,
+            .adapt_radius = params.adapt_radius,
+            .random_seed = params.random_seed};
+}
+
 }  // namespace
 
 Pattern make_pattern(const AnalysisParams& params) {
@@ -44,7 +53,13 @@ Pattern make_pattern(const AnalysisParams& params) {
     throw Error(ErrorCode::Internal, "Unknown kind of pattern.");
 }
 
-FieldSet::FieldSet(const Shape& shape, const AnalysisParams& params, const Execution& execution)
+double reach_of_fields(const AnalysisParams& params) {
+    // An LPF moves what lies in its target area, and is made from all that lies there.
+    return 2 * params.target_radius * largest_radius(seeding_params(params));
+}
+
+FieldSet::FieldSet(const Shape& shape, const AnalysisParams& params, const Execution& execution,
+                   const Region& region)
     : pattern_(make_pattern(params)),
       samples_(mesh_samples(shape, params)),
       grid_(samples_.triangle.empty() ? shape.cloud.points : samples_.points,
@@ -63,19 +78,15 @@ FieldSet::FieldSet(const Shape& shape, const AnalysisParams& params, const Execu
             operator_ = make_nearest_triangle_probing(pattern_, shape, samples_, grid_);
             break;
     }
-    place(samples_.triangle.empty() ? shape.cloud.points : samples_.points, params, execution);
+    place(samples_.triangle.empty() ? shape.cloud.points : samples_.points, params, region,
+          execution);
 }
 
-void FieldSet::place(const Points& targets, const AnalysisParams& params,
+void FieldSet::place(const Points& targets, const AnalysisParams& params, const Region& region,
                      const Execution& execution) {
-    Seeds seeds = place_seeds(targets, grid_,
-                              {.radius = params.radius,
-                               .spacing = params.seed_spacing,
-                               .target_radius = params.target_radius,
-                               .noise = params.noise,
-                               .adapt_radius = params.adapt_radius,
-                               .random_seed = params.random_seed},
-                              part_of(execution, 0.0, 0.5));
+    SeedingParams seeding = seeding_params(params);
+    seeding.region = region;
+    Seeds seeds = place_seeds(targets, grid_, seeding, part_of(execution, 0.0, 0.5));
     frames = std::move(seeds.frames);
     pieces = std::move(seeds.pieces);
     dimensions.assign(frames.size(), kTooFewPoints);

@@ -13,6 +13,7 @@
 #include "core/field/probing.h"
 #include "core/field/target_area.h"
 #include "core/learn/dictionary_learning.h"
+#include "core/shape/box.h"
 
 namespace lpf {
 
@@ -22,7 +23,9 @@ class FieldSet {
 public:
     /// Places LPFs all over the shape (paper Sec. 3.1): seeds, target areas, first poses.
     /// @param shape must outlive the set
-    FieldSet(const Shape& shape, const AnalysisParams& params, const Execution& execution);
+    /// @param region where the LPFs are wanted: all that reach into it, no others
+    FieldSet(const Shape& shape, const AnalysisParams& params, const Execution& execution,
+             const Region& region = {});
 
     /// What a thread needs to work on one LPF after the other.
     struct Worker {
@@ -102,7 +105,8 @@ public:
     std::vector<Piece> pieces;             ///< what each is about; the fields start from it
 
 private:
-    void place(const Points& targets, const AnalysisParams& params, const Execution& execution);
+    void place(const Points& targets, const AnalysisParams& params, const Region& region,
+               const Execution& execution);
     [[nodiscard]] Worker make_worker(int atoms) const;
     void gather(std::size_t j, TargetArea& target) const;
     void gather_ball(std::size_t j, TargetArea& target) const;
@@ -118,6 +122,9 @@ private:
     double radius_;
     float target_radius_;
 };
+
+/// How far from a place points matter to the LPFs that move it [input length].
+[[nodiscard]] double reach_of_fields(const AnalysisParams& params);
 
 /// The pattern that the parameters ask for. @throws Error{InvalidParameter}
 [[nodiscard]] Pattern make_pattern(const AnalysisParams& params);

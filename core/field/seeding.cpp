@@ -71,6 +71,18 @@ struct Trial {
     bool last_chance = false;  ///< whatever is left gets an LPF now
 };
 
+std::vector<double> radii_to_try(const SeedingParams& params) {
+    if (!params.adapt_radius) return {params.radius};
+    std::vector<double> radii;
+    for (const double size : kSizes) {
+        const double radius = size * params.radius;
+        if (size > 1 && params.noise < kLeastNoiseToAverage * params.radius) continue;
+        if (radius >= kLeastSigmasOfSize * params.noise) radii.push_back(radius);
+    }
+    if (radii.empty()) radii.push_back(params.radius);
+    return radii;
+}
+
 /// Tries one size after the other: seeds whose radius suits stay; where none does, the points are
 /// taken care of by seeds of the next smaller radius.
 class Seeding {
@@ -84,7 +96,7 @@ public:
           care_(grid.size(), kOpen) {}
 
     Seeds run(const Execution& execution) {
-        const std::vector<double> radii = radii_to_try();
+        const std::vector<double> radii = radii_to_try(params_);
         for (std::size_t k = 0; k < radii.size(); ++k) {
             const bool last = k + 1 == radii.size();
             Trial trial{radii[k], last ? 0.0 : radii[k + 1] / radii[k], false};
@@ -102,25 +114,17 @@ public:
     }
 
 private:
-    [[nodiscard]] std::vector<double> radii_to_try() const {
-        if (!params_.adapt_radius) return {params_.radius};
-        std::vector<double> radii;
-        for (const double size : kSizes) {
-            const double radius = size * params_.radius;
-            if (size > 1 && params_.noise < kLeastNoiseToAverage * params_.radius) continue;
-            if (radius >= kLeastSigmasOfSize * params_.noise) radii.push_back(radius);
-        }
-        if (radii.empty()) radii.push_back(params_.radius);
-        return radii;
-    }
-
     /// Of the points that nothing takes care of, in the order of the input.
-    [[nodiscard]] Indices open_places(const Execution& execution) const {
+    [[nodiscard]] Indices open_places(double radius, const Execution& execution) const {
+        const double reach = params_.target_radius * radius;
         std::vector<Indices> parts(chunk_count(place_.size(), kPointsPerChunk));
         parallel_for(execution, place_.size(), kPointsPerChunk,
                      [&](std::size_t begin, std::size_t end, std::size_t chunk) {
                          for (std::size_t i = begin; i < end; ++i) {
-                             if (care_[place_[i]] == kOpen) parts[chunk].push_back(place_[i]);
+                             if (care_[place_[i]] != kOpen) continue;
+                             const auto point = points_.col(static_cast<Eigen::Index>(i));
+                             if (!is_near(params_.region, point, reach)) continue;
+                             parts[chunk].push_back(place_[i]);
                          }
                      });
         Indices open;
@@ -131,7 +135,7 @@ private:
     void reopen_tried() { std::replace(care_.begin(), care_.end(), kTried, kOpen); }
 
     void place(const Trial& trial, const Execution& execution) {
-        const Indices open = open_places(execution);
+        const Indices open = open_places(trial.radius, execution);
         if (open.empty()) return;
         const Indices chosen =
             poisson_disk_subset(grid_, open, params_.spacing * trial.radius, params_.random_seed,
@@ -350,6 +354,8 @@ private:
 };
 
 }  // namespace
+
+double largest_radius(const SeedingParams& params) { return radii_to_try(params).front(); }
 
 Seeds place_seeds(const Points& points, const PointGrid& grid, const SeedingParams& params,
                   const Execution& execution) {

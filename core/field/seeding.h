@@ -7,6 +7,7 @@
 #include "core/field/frame.h"
 #include "core/field/piece.h"
 #include "core/field/target_area.h"
+#include "core/shape/box.h"
 
 namespace lpf {
 
@@ -20,7 +21,11 @@ struct SeedingParams {
     double noise = 0.0;
     bool adapt_radius = false;  ///< LPFs as large as the shape around them allows
     std::uint64_t random_seed = 1;
+    Region region = {};  ///< LPFs are only placed where their target areas reach into it
 };
+
+/// The radius of the largest LPFs that the parameters may lead to [input length].
+[[nodiscard]] double largest_radius(const SeedingParams& params);
 
 /// LPFs that are placed but have no pose yet.
 struct Seeds {

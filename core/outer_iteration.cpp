@@ -1,0 +1,36 @@
+#include "core/outer_iteration.h"
+
+#include <utility>
+
+#include "core/field_set.h"
+
+namespace lpf {
+
+AnalysisResult find_moves(const Shape& current, const DenoiseParams& params, const Region& region,
+                          const Execution& execution, const TakeMoves& take) {
+    const AnalysisParams& how = params.analysis;
+    FieldSet fields(current, how, part_of(execution, 0.0, 0.05), region);
+    fields.optimise_poses(how.pose_iterations, part_of(execution, 0.05, 0.25));
+    AnalysisResult analysis = analyze(fields, how, part_of(execution, 0.25, 0.8));
+    take(fields.grid().order(), vote(fields, analysis, {.sharp = params.sharp, .noise = how.noise},
+                                     part_of(execution, 0.8, 1.0)));
+    return analysis;
+}
+
+double step_length(const DenoiseParams& params) {
+    const double share = params.gamma > 0 ? params.gamma / (1 + params.gamma) : 1.0;
+    return share * params.analysis.radius;
+}
+
+bool goes_on(const DenoiseParams& params, const std::vector<double>& rms_moves) {
+    const double last = rms_moves.back();
+    const bool still = rms_moves.size() > 1 && last <= params.stop_ratio * rms_moves.front();
+    return static_cast<int>(rms_moves.size()) < params.iterations && !still && last != 0;
+}
+
+void prepare_next(Dictionary dictionary, DenoiseParams& params) {
+    params.analysis.initial_dictionary = std::move(dictionary);
+    params.analysis.noise *= kNoiseLeft;
+}
+
+}  // namespace lpf

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "core/denoise.h"
+#include "core/shape/box.h"
+#include "core/votes.h"
+
+namespace lpf {
+
+/// Gets how far points go. @param order indices of the points  @param moves of each [radius]
+using TakeMoves =
+    std::function<void(const std::vector<std::uint32_t>& order, const Moves& moves)>;
+
+/// One outer iteration of denoising (paper Sec. 4.2): LPFs on the points as they are now, their
+/// joint analysis, and their consensus.
+/// @param params of this iteration
+/// @param region where moves are wanted; what points further off do is of no use
+[[nodiscard]] AnalysisResult find_moves(const Shape& current, const DenoiseParams& params,
+                                        const Region& region, const Execution& execution,
+                                        const TakeMoves& take);
+
+/// Eq. 12, with q the current position: the full step, or the share gamma / (1 + gamma) of it.
+/// @returns what a move is multiplied with [input length / radius]
+[[nodiscard]] double step_length(const DenoiseParams& params);
+
+/// Whether another outer iteration is worth it after those that moved the points so far.
+[[nodiscard]] bool goes_on(const DenoiseParams& params, const std::vector<double>& rms_moves);
+
+/// Parameters of the next outer iteration: it starts from the dictionary of the one before, and
+/// there is less noise.
+void prepare_next(Dictionary dictionary, DenoiseParams& params);
+
+}  // namespace lpf

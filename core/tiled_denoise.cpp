@@ -1,0 +1,206 @@
+#include "core/tiled_denoise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/base/error.h"
+#include "core/base/joined_progress.h"
+#include "core/field_set.h"
+#include "core/outer_iteration.h"
+#include "core/shape/tiling.h"
+
+namespace lpf {
+namespace {
+
+/// So many tiles are worked on at a time, however many threads there are: each takes memory.
+constexpr int kTilesAtOnce = 4;
+
+/// Leaves the LPFs whose seeds lie in the box.
+void keep_own(const Box& box, AnalysisResult& part) {
+    std::vector<float> codes;
+    std::size_t kept = 0;
+    for (std::size_t j = 0; j < part.frames.size(); ++j) {
+        if (!box.holds(part.frames[j].centre)) continue;
+        part.frames[kept] = part.frames[j];
+        part.residuals[kept] = part.residuals[j];
+        part.dimensions[kept] = part.dimensions[j];
+        codes.insert(codes.end(), part.codes[j].begin(), part.codes[j].end());
+        ++kept;
+    }
+    part.frames.resize(kept);
+    part.residuals.resize(kept);
+    part.dimensions.resize(kept);
+    part.codes = SparseCodes(std::move(codes), part.codes.atoms());
+}
+
+using Parts = std::vector<std::optional<AnalysisResult>>;
+
+/// Energies are those of LPFs on average: each part counts by how many it has.
+std::vector<IterationEnergy> mean_energy(const Parts& parts) {
+    double fields = 0;
+    for (const auto& part : parts) fields += static_cast<double>(part->frames.size());
+    std::vector<IterationEnergy> mean(parts.front()->energy.size());
+    for (const auto& part : parts) {
+        const double share = static_cast<double>(part->frames.size()) / std::max(1.0, fields);
+        for (std::size_t i = 0; i < mean.size(); ++i) {
+            mean[i].learning += share * part->energy[i].learning;
+            mean[i].pose += share * part->energy[i].pose;
+            mean[i].probing += share * part->energy[i].probing;
+        }
+    }
+    return mean;
+}
+
+/// The LPFs of all tiles, one tile behind the other.
+AnalysisResult join(Parts parts) {
+    std::vector<IterationEnergy> energy = mean_energy(parts);
+    AnalysisResult all = *std::move(parts.front());
+    std::vector<float> codes = all.codes.values();
+    const auto append = [](auto& to, const auto& from) {
+        to.insert(to.end(), from.begin(), from.end());
+    };
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+        append(all.frames, parts[i]->frames);
+        append(all.residuals, parts[i]->residuals);
+        append(all.dimensions, parts[i]->dimensions);
+        append(codes, parts[i]->codes.values());
+        parts[i].reset();
+    }
+    all.codes = SparseCodes(std::move(codes), all.dictionary.atoms());
+    all.usage = usage_of_atoms(all.codes);
+    all.energy = std::move(energy);
+    return all;
+}
+
+/// A cloud that is denoised tile by tile; one method for each step.
+class TiledDenoiser {
+public:
+    TiledDenoiser(const PointSource& source, const DenoiseParams& params,
+                  const TilingParams& tiling, const Execution& execution)
+        : source_(source),
+          params_(params),
+          sketch_(checked(make_sketch(source, execution))),
+          partition_(sketch_, static_cast<double>(tiling.points)),
+          tiles_(source, partition_, reach_of_fields(params.analysis), execution),
+          excerpt_(make_excerpt(source,
+                                Partition(sketch_, static_cast<double>(tiling.patch_points)),
+                                tiling.patches, reach_of_fields(params.analysis), execution)),
+          moves_(source.size(), Eigen::Vector3f::Zero()) {}
+
+    TiledDenoising run(const Execution& execution) {
+        std::vector<double> rms_moves;
+        for (int i = 0;; ++i) {
+            const Execution outer =
+                part_of(execution, static_cast<double>(i) / params_.iterations,
+                        static_cast<double>(i + 1) / params_.iterations);
+            if (!params_.analysis.keep_dictionary) learn(part_of(outer, 0.0, kShareOfLearning));
+            Parts parts(tiles_.size());
+            rms_moves.push_back(move_all(parts, part_of(outer, kShareOfLearning, 1.0)));
+            if (!goes_on(params_, rms_moves)) {
+                return {std::move(moves_), std::move(rms_moves), join(std::move(parts))};
+            }
+            prepare_next(*params_.analysis.initial_dictionary, params_);
+        }
+    }
+
+private:
+    static constexpr double kShareOfLearning = 0.05;
+
+    static Sketch checked(Sketch sketch) {
+        if (sketch.of < 3) {
+            throw Error(ErrorCode::TooFewPoints, "The shape has " + std::to_string(sketch.of) +
+                                                     " points; at least 3 are needed.");
+        }
+        if (!((sketch.high - sketch.low).maxCoeff() > 0)) {
+            throw Error(ErrorCode::DegenerateShape,
+                        "All points of the shape coincide: it has no extent.");
+        }
+        return sketch;
+    }
+
+    /// Some points where they are now.
+    [[nodiscard]] Shape load(std::span<const std::uint32_t> indices) const {
+        Shape part;
+        source_.read(indices, part.cloud.points);
+        for (std::size_t i = 0; i < indices.size() && !moves_.empty(); ++i) {
+            part.cloud.points.col(static_cast<Eigen::Index>(i)) +=
+                moves_[indices[i]].cast<double>();
+        }
+        return part;
+    }
+
+    /// The dictionary that all tiles share.
+    void learn(const Execution& execution) {
+        const Shape part = load(excerpt_.points);
+        FieldSet fields(part, params_.analysis, part_of(execution, 0.0, 0.3), excerpt_.boxes);
+        fields.optimise_poses(params_.analysis.pose_iterations, part_of(execution, 0.3, 0.5));
+        params_.analysis.initial_dictionary =
+            analyze(fields, params_.analysis, part_of(execution, 0.5, 1.0)).dictionary;
+    }
+
+    /// Moves all points by one outer iteration. @param parts out, the LPFs of each tile
+    /// @returns the RMS of the moves
+    double move_all(Parts& parts, const Execution& execution) {
+        // Tiles see where the points around them were before.
+        std::vector<Eigen::Vector3f> moves = moves_;
+        moves.resize(source_.size(), Eigen::Vector3f::Zero());
+        std::vector<double> squares(tiles_.size(), 0.0);
+        JoinedProgress progress(execution, "denoise", "tiles", tiles_.size());
+        const int at_once = std::min(execution.threads, kTilesAtOnce);
+        Execution together = execution;
+        together.threads = at_once;
+        parallel_for(together, tiles_.size(), 1, [&](std::size_t tile, std::size_t, std::size_t) {
+            const Execution alone = progress.part(std::max(1, execution.threads / at_once));
+            parts[tile] = move_tile(tile, moves, squares[tile], alone);
+            source_.let_go();
+        });
+        moves_ = std::move(moves);
+        const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
+        return std::sqrt(sum / static_cast<double>(sketch_.of));
+    }
+
+    /// Moves the points that lie in a tile. @returns the LPFs there
+    AnalysisResult move_tile(std::size_t tile, std::vector<Eigen::Vector3f>& moves,
+                             double& squares, const Execution& execution) const {
+        const Box& box = partition_.boxes()[tile];
+        const std::span<const std::uint32_t> indices = tiles_.points(tile);
+        Points original;
+        source_.read(indices, original);
+        const auto move_own = [&](const std::vector<std::uint32_t>& order, const Moves& found) {
+            const double step = step_length(params_);
+            for (std::size_t i = 0; i < order.size(); ++i) {
+                if (!box.holds(original.col(order[i]))) continue;
+                const Eigen::Vector3d move = step * found[i].cast<double>();
+                moves[indices[order[i]]] += move.cast<float>();
+                squares += move.squaredNorm();
+            }
+        };
+        DenoiseParams params = params_;
+        params.analysis.keep_dictionary = true;
+        AnalysisResult part = find_moves(load(indices), params, {box}, execution, move_own);
+        keep_own(box, part);
+        return part;
+    }
+
+    const PointSource& source_;
+    DenoiseParams params_;
+    Sketch sketch_;
+    Partition partition_;
+    Tiling tiles_;
+    Excerpt excerpt_;
+    std::vector<Eigen::Vector3f> moves_;
+};
+
+}  // namespace
+
+TiledDenoising denoise_tiles(const PointSource& source, const DenoiseParams& params,
+                             const Execution& execution, const TilingParams& tiling) {
+    validate(params);
+    return TiledDenoiser(source, params, tiling, execution).run(execution);
+}
+
+}  // namespace lpf

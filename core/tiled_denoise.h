@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "core/denoise.h"
+#include "core/shape/point_source.h"
+
+namespace lpf {
+
+/// How a large cloud is cut.
+struct TilingParams {
+    std::size_t points = 1'000'000;     ///< in a tile, without those around it; about
+    std::size_t patches = 64;           ///< that the dictionary is learned on
+    std::size_t patch_points = 8192;   ///< in each, about
+};
+
+struct TiledDenoising {
+    std::vector<Eigen::Vector3f> moves;  ///< of each point [input length]; 0 where it is not finite
+    std::vector<double> rms_moves;       ///< RMS move of each outer iteration [input length]
+    /// Of the last outer iteration, tile by tile. Energies are means over the LPFs of all tiles,
+    /// so that those near borders count more than once.
+    AnalysisResult analysis;
+};
+
+/// As `denoise`, for clouds of which a copy is too much: one dictionary is learned on patches all
+/// over the cloud; then each tile, with all around it that LPFs of its points can see, is denoised
+/// against it. Neither memory nor results depend on how many tiles are worked on at a time.
+/// Points that are not finite stay as they are.
+/// @throws Error{InvalidParameter, IncompatibleDictionary, TooFewPoints, DegenerateShape,
+/// Cancelled}
+[[nodiscard]] TiledDenoising denoise_tiles(const PointSource& source, const DenoiseParams& params,
+                                           const Execution& execution,
+                                           const TilingParams& tiling = {});
+
+}  // namespace lpf
