@@ -8,6 +8,7 @@
 
 #include "core/base/random.h"
 #include "core/field_set.h"
+#include "core/tiled_denoise.h"
 
 namespace lpf {
 namespace {
@@ -118,6 +119,9 @@ constexpr double kApartFace = 200;
 constexpr double kTreePoint = 44;
 constexpr double kGridPoint = 66;
 constexpr double kBallotPoint = 56;  // sums, and the moves of two rounds
+constexpr double kTilePoint = 180;
+constexpr double kPointsAround = 1.3;  // those of a tile with those around it, for its own
+constexpr double kStreamedPoint = 18;  // moves, and numbers of the points of tiles
 constexpr double kField = 300;
 constexpr double kCandidate = 90;
 constexpr double kJobBytes = 5e6;
@@ -154,12 +158,23 @@ double method_bytes(const Workload& w, const ResolvedParameters& p) {
     return bytes;
 }
 
+/// A cloud that is worked on tile by tile (core/tiled_denoise.h).
+double streamed_bytes(const Workload& w, const ResolvedParameters& p, int threads) {
+    const double tile = kTilePoint * kPointsAround * static_cast<double>(TilingParams{}.points);
+    const double at_once = std::min<double>(threads, kTilesAtOnce);
+    return kStreamedPoint * w.points + at_once * tile +
+           w.fields * 2 * (kField + 4.0 * p.analysis.atoms);
+}
+
 }  // namespace
 
 Estimate estimate(const Workload& work, const ResolvedParameters& parameters, double speed,
                   int threads) {
     Seconds seconds = around(work);
     seconds += method(work, parameters);
+    const double all = (seconds.alone + seconds.shared / std::max(1, threads)) / speed;
+    if (work.streamed)
+        return {all, kJobBytes + kSafety * streamed_bytes(work, parameters, threads)};
     const double row = kPosition + work.row_bytes;
     const double document = document_bytes(work);
     const double decoding = work.file_bytes + document + work.file_bytes + apart_bytes(work);
@@ -167,9 +182,7 @@ Estimate estimate(const Workload& work, const ResolvedParameters& parameters, do
     const double working = document + method_bytes(work, parameters);
     const double writing =
         document + 3 * row * work.output_points + work.fields * (kField + 24.0) + apart_bytes(work);
-    return {
-        .seconds = (seconds.alone + seconds.shared / std::max(1, threads)) / speed,
-        .memory_bytes = kJobBytes + kSafety * std::max({decoding, measuring, working, writing})};
+    return {all, kJobBytes + kSafety * std::max({decoding, measuring, working, writing})};
 }
 
 double document_bytes(const Workload& work) {

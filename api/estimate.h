@@ -21,6 +21,7 @@ struct Workload {
     double points_per_field = 0;  ///< in a target area
     double output_points = 0;
     bool decoded_apart = false;  ///< the format is decoded and encoded with more effort (Draco)
+    bool streamed = false;       ///< read and written part by part, never held
     bool finds_outliers = false;
     bool estimates_normals = false;
 };

@@ -12,9 +12,12 @@
 namespace lpf {
 namespace {
 
-constexpr double kLook = 48e6;          // at a sample of the points
 constexpr double kDocumentPerByte = 4;  // of a PLY: "0 0 0" of a text are three doubles
-constexpr double kUnknownRow = 16;      // attributes of a point
+/// There are never more LPFs than points that they are placed on, and by far fewer of the automatic
+/// radius.
+constexpr double kMostFieldsPerPoint = 0.05;
+
+constexpr double kUnknownRow = 16;  // attributes of a point
 
 double type_bytes(const std::string& type) {
     const std::size_t digits = type.find_first_of("0123456789");
@@ -84,10 +87,12 @@ Workload claimed(std::span<const std::byte> file, const Limits& limits) {
             .decoded_apart = true};
 }
 
-double bytes_with(Task task, const JobInputs& inputs, const ShapeInfo& shape, double fields) {
+double bytes_with(Task task, const JobInputs& inputs, const ShapeInfo& shape, double fields,
+                  int streaming_threads) {
     Workload work = workload(task, inputs, shape, fields);
+    work.streamed = streaming_threads > 0;
     const ResolvedParameters p = parameters(task, inputs, work);
-    return estimate(work, p, 1.0, 1).memory_bytes;
+    return estimate(work, p, 1.0, std::max(1, streaming_threads)).memory_bytes;
 }
 
 std::string mebibytes(double bytes) {
@@ -98,24 +103,27 @@ std::string mebibytes(double bytes) {
 
 }  // namespace
 
-MemoryRange memory_range(Task task, const JobInputs& inputs, const ShapeInfo& shape) {
-    MemoryRange range{.least = bytes_with(task, inputs, shape, 0.0)};
-    // There are never more LPFs than points that they are placed on.
-    if (!needs_a_look(task, inputs, shape)) range.most = bytes_with(task, inputs, shape, 1.0);
+MemoryRange memory_range(Task task, const JobInputs& inputs, const ShapeInfo& shape,
+                         int streaming_threads) {
+    const double most = streaming_threads > 0 && !inputs.radius ? kMostFieldsPerPoint : 1.0;
+    MemoryRange range{.least = bytes_with(task, inputs, shape, 0.0, streaming_threads)};
+    if (!needs_a_look(task, inputs, shape)) {
+        range.most = bytes_with(task, inputs, shape, most, streaming_threads);
+    }
     return range;
 }
 
 double summary_bytes(std::span<const std::byte> file, const Limits& limits) {
-    if (sniff(file) != FileFormat::Draco) return kLook;
+    if (sniff(file) != FileFormat::Draco) return kLookBytes;
     const Workload work = claimed(file, limits);
-    return kLook + apart_bytes(work);
+    return kLookBytes + apart_bytes(work);
 }
 
 double decoding_bytes(std::span<const std::byte> file, const Limits& limits) {
     if (sniff(file) != FileFormat::Draco)
-        return kLook + kDocumentPerByte * static_cast<double>(file.size());
+        return kLookBytes + kDocumentPerByte * static_cast<double>(file.size());
     const Workload work = claimed(file, limits);
-    return kLook + document_bytes(work) + apart_bytes(work);
+    return kLookBytes + document_bytes(work) + apart_bytes(work);
 }
 
 void require_memory(double needed, std::uint64_t budget) {

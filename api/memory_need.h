@@ -14,7 +14,12 @@ struct MemoryRange {
     double least = 0;
     std::optional<double> most = {};  ///< nothing where only a look at the shape can tell
 };
-[[nodiscard]] MemoryRange memory_range(Task task, const JobInputs& inputs, const ShapeInfo& shape);
+/// @param streaming_threads those of a job that does not hold its shape; 0 = it does
+[[nodiscard]] MemoryRange memory_range(Task task, const JobInputs& inputs, const ShapeInfo& shape,
+                                       int streaming_threads = 0);
+
+/// For a look at a sample of the points [bytes].
+inline constexpr double kLookBytes = 48e6;
 
 /// Memory for decoding a file within a request and looking at it [bytes].
 /// @throws as read_draco_claim

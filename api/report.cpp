@@ -14,9 +14,31 @@ namespace {
 using nlohmann::json;
 
 /// The smallest value that at least `share` of all values do not exceed. @pre sorted, not empty
-double quantile(const std::vector<double>& sorted, double share) {
+template <typename Length>
+double quantile(const std::vector<Length>& sorted, double share) {
     const auto rank = std::ceil(share * static_cast<double>(sorted.size()));
-    return sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1];
+    return static_cast<double>(sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1]);
+}
+
+/// @param lengths will be sorted
+template <typename Length>
+DisplacementStatistics statistics_of(std::vector<Length>& lengths) {
+    if (lengths.empty()) return {};
+    const auto n = static_cast<double>(lengths.size());
+    double sum = 0.0;
+    double squares = 0.0;
+    for (const Length value : lengths) {
+        const auto length = static_cast<double>(value);
+        sum += length;
+        squares += length * length;
+    }
+    std::ranges::sort(lengths);
+    return {.rms = std::sqrt(squares / n),
+            .mean = sum / n,
+            .p50 = quantile(lengths, 0.5),
+            .p90 = quantile(lengths, 0.9),
+            .p99 = quantile(lengths, 0.99),
+            .max = static_cast<double>(lengths.back())};
 }
 
 json shape_to_json(std::uint64_t points, const std::optional<Bounds>& bounds) {
@@ -48,24 +70,15 @@ json displacement_to_json(const DisplacementStatistics& d) {
 }  // namespace
 
 DisplacementStatistics displacement_statistics(const Points& before, const Points& after) {
-    const Eigen::Index n = before.cols();
-    if (n == 0) return {};
-    std::vector<double> lengths(static_cast<std::size_t>(n));
-    double sum = 0.0;
-    double squares = 0.0;
-    for (Eigen::Index i = 0; i < n; ++i) {
-        const double length = (after.col(i) - before.col(i)).norm();
-        lengths[static_cast<std::size_t>(i)] = length;
-        sum += length;
-        squares += length * length;
+    std::vector<double> lengths(static_cast<std::size_t>(before.cols()));
+    for (Eigen::Index i = 0; i < before.cols(); ++i) {
+        lengths[static_cast<std::size_t>(i)] = (after.col(i) - before.col(i)).norm();
     }
-    std::ranges::sort(lengths);
-    return {.rms = std::sqrt(squares / static_cast<double>(n)),
-            .mean = sum / static_cast<double>(n),
-            .p50 = quantile(lengths, 0.5),
-            .p90 = quantile(lengths, 0.9),
-            .p99 = quantile(lengths, 0.99),
-            .max = lengths.back()};
+    return statistics_of(lengths);
+}
+
+DisplacementStatistics displacement_statistics(std::vector<float> lengths) {
+    return statistics_of(lengths);
 }
 
 json to_json(const Report& report) {

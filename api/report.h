@@ -29,6 +29,9 @@ struct DisplacementStatistics {
 [[nodiscard]] DisplacementStatistics displacement_statistics(const Points& before,
                                                              const Points& after);
 
+/// The same of the distances themselves.
+[[nodiscard]] DisplacementStatistics displacement_statistics(std::vector<float> lengths);
+
 /// What was done, found and measured: the result `report` of a job.
 struct Report {
     std::string version;  ///< of the program

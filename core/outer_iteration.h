@@ -11,8 +11,7 @@
 namespace lpf {
 
 /// Gets how far points go. @param order indices of the points  @param moves of each [radius]
-using TakeMoves =
-    std::function<void(const std::vector<std::uint32_t>& order, const Moves& moves)>;
+using TakeMoves = std::function<void(const std::vector<std::uint32_t>& order, const Moves& moves)>;
 
 /// One outer iteration of denoising (paper Sec. 4.2): LPFs on the points as they are now, their
 /// joint analysis, and their consensus.

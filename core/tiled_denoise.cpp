@@ -16,9 +16,6 @@
 namespace lpf {
 namespace {
 
-/// So many tiles are worked on at a time, however many threads there are: each takes memory.
-constexpr int kTilesAtOnce = 4;
-
 /// Leaves the LPFs whose seeds lie in the box.
 void keep_own(const Box& box, AnalysisResult& part) {
     std::vector<float> codes;
@@ -94,9 +91,8 @@ public:
     TiledDenoising run(const Execution& execution) {
         std::vector<double> rms_moves;
         for (int i = 0;; ++i) {
-            const Execution outer =
-                part_of(execution, static_cast<double>(i) / params_.iterations,
-                        static_cast<double>(i + 1) / params_.iterations);
+            const Execution outer = part_of(execution, static_cast<double>(i) / params_.iterations,
+                                            static_cast<double>(i + 1) / params_.iterations);
             if (!params_.analysis.keep_dictionary) learn(part_of(outer, 0.0, kShareOfLearning));
             Parts parts(tiles_.size());
             rms_moves.push_back(move_all(parts, part_of(outer, kShareOfLearning, 1.0)));
@@ -164,8 +160,8 @@ private:
     }
 
     /// Moves the points that lie in a tile. @returns the LPFs there
-    AnalysisResult move_tile(std::size_t tile, std::vector<Eigen::Vector3f>& moves,
-                             double& squares, const Execution& execution) const {
+    AnalysisResult move_tile(std::size_t tile, std::vector<Eigen::Vector3f>& moves, double& squares,
+                             const Execution& execution) const {
         const Box& box = partition_.boxes()[tile];
         const std::span<const std::uint32_t> indices = tiles_.points(tile);
         Points original;

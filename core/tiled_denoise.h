@@ -7,11 +7,14 @@
 
 namespace lpf {
 
+/// So many tiles are worked on at a time, however many threads there are: each takes memory.
+inline constexpr int kTilesAtOnce = 4;
+
 /// How a large cloud is cut.
 struct TilingParams {
-    std::size_t points = 1'000'000;     ///< in a tile, without those around it; about
-    std::size_t patches = 64;           ///< that the dictionary is learned on
-    std::size_t patch_points = 8192;   ///< in each, about
+    std::size_t points = 1'000'000;   ///< in a tile, without those around it; about
+    std::size_t patches = 64;         ///< that the dictionary is learned on
+    std::size_t patch_points = 8192;  ///< in each, about
 };
 
 struct TiledDenoising {

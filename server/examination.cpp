@@ -105,12 +105,23 @@ ShapePart part_of_shape(const Shape& shape, std::size_t most) {
     return {only(shape, kept), static_cast<double>(kept.size()) / static_cast<double>(n)};
 }
 
-Measurements measure_part(const ShapePart& part, const Shape& whole, const Execution& execution) {
+ShapePart part_of_points(const PointSource& source, const Sketch& sketch, std::size_t most,
+                         const Execution& execution) {
+    const Partition partition(sketch, static_cast<double>(most) / kBoxes);
+    const Excerpt excerpt = make_excerpt(source, partition, kBoxes, 0.0, execution);
+    ShapePart part;
+    source.read(excerpt.points, part.shape.cloud.points);
+    source.let_go();
+    part.share = static_cast<double>(excerpt.points.size()) / static_cast<double>(sketch.of);
+    return part;
+}
+
+Measurements measure_part(const ShapePart& part, std::size_t points, double diagonal,
+                          const Execution& execution) {
     Measurements measured = measure(part.shape.cloud.points, execution);
     if (part.is_whole()) return measured;
-    const Points& points = whole.cloud.points;
-    measured.points = whole.size();
-    measured.diagonal = (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
+    measured.points = points;
+    measured.diagonal = diagonal;
     return measured;
 }
 

@@ -6,6 +6,7 @@
 #include "api/codec/document.h"
 #include "api/job_inputs.h"
 #include "core/auto_parameters.h"
+#include "core/shape/tiling.h"
 
 namespace lpf::server {
 
@@ -21,8 +22,12 @@ struct ShapePart {
 /// @param most points that are looked at, about
 [[nodiscard]] ShapePart part_of_shape(const Shape& shape, std::size_t most);
 
-/// As `measure` of the whole shape, from a part of it.
-[[nodiscard]] Measurements measure_part(const ShapePart& part, const Shape& whole,
+/// The same of a shape that is not held.
+[[nodiscard]] ShapePart part_of_points(const PointSource& source, const Sketch& sketch,
+                                       std::size_t most, const Execution& execution);
+
+/// As `measure` of the whole shape, from a part of it. @param points, diagonal of the whole
+[[nodiscard]] Measurements measure_part(const ShapePart& part, std::size_t points, double diagonal,
                                         const Execution& execution);
 
 /// What is found on a part, and told of the whole.

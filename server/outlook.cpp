@@ -7,7 +7,6 @@
 namespace lpf::server {
 namespace {
 
-constexpr std::size_t kExaminedPoints = 200'000;
 constexpr auto kPatience = std::chrono::seconds(30);
 constexpr auto kPoll = std::chrono::milliseconds(100);
 
@@ -18,11 +17,12 @@ ResolvedParameters resolve(Services& services, const Question& q, const Shape& s
     return resolve_parameters(q.task, shape, measured, wanted);
 }
 
-Workload workload_of(const Question& q, const Document& document, const Findings& found,
+Workload workload_of(const Question& q, const Subject& subject, const Findings& found,
                      const ResolvedParameters& parameters) {
+    const Document& document = subject.document;
     const bool draco = document.format == FileFormat::Draco ||
                        result_format(q.inputs, document.format) == FileFormat::Draco;
-    const auto points = static_cast<double>(document.shape.size());
+    const auto points = static_cast<double>(subject.points);
     return {
         .task = q.task,
         .points = points,
@@ -34,19 +34,20 @@ Workload workload_of(const Question& q, const Document& document, const Findings
         .points_per_field = found.points_per_field,
         .output_points = expected_points(q.task, points, found.fields, parameters),
         .decoded_apart = draco,
+        .streamed = subject.streamed,
         .finds_outliers = q.inputs.outliers.value_or(OutlierPolicy::Keep) != OutlierPolicy::Keep,
         .estimates_normals = q.inputs.normals == NormalPolicy::Estimate};
 }
 
-Outlook look(Services& services, const Question& q, const Document& document,
+Outlook look(Services& services, const Question& q, const Subject& subject,
              const Execution& execution) {
     Outlook out;
-    const ShapePart part = part_of_shape(document.shape, kExaminedPoints);
+    const ShapePart& part = subject.part;
     out.examined_share = part.share;
-    out.measurements = measure_part(part, document.shape, execution);
-    out.parameters = resolve(services, q, document.shape, out.measurements);
+    out.measurements = measure_part(part, subject.points, subject.diagonal(), execution);
+    out.parameters = resolve(services, q, subject.document.shape, out.measurements);
     out.found = examine(part, out.parameters, execution);
-    out.work = workload_of(q, document, out.found, out.parameters);
+    out.work = workload_of(q, subject, out.found, out.parameters);
     out.estimate = estimate(out.work, out.parameters, machine_speed(), services.config.threads);
     return out;
 }
@@ -63,10 +64,10 @@ Patience::Patience(const http::Request& request)
           }
       }) {}
 
-Outlook look_ahead(Services& services, const Question& question, const Document& document,
+Outlook look_ahead(Services& services, const Question& question, const Subject& subject,
                    const Patience& patience) {
     try {
-        return look(services, question, document, patience.execution());
+        return look(services, question, subject, patience.execution());
     } catch (const Error& error) {
         if (error.code() != ErrorCode::Cancelled) throw;
         throw ProblemException(ProblemCode::TimedOut, "Looking at this shape took too long.");

@@ -1,10 +1,9 @@
 #pragma once
 
-#include "api/codec/document.h"
 #include "api/estimate.h"
-#include "server/examination.h"
 #include "server/http/message.h"
 #include "server/services.h"
+#include "server/subject.h"
 
 namespace lpf::server {
 
@@ -20,13 +19,6 @@ private:
     std::jthread thread_;  // last: it uses the source, and is joined first
 };
 
-/// What is asked of a shape.
-struct Question {
-    Task task = Task::Denoise;
-    const JobInputs& inputs;
-    std::uint64_t file_bytes = 0;
-};
-
 /// What is foreseen of a job by a look at its shape, or at parts of a large one.
 struct Outlook {
     double examined_share = 1;  ///< of the points
@@ -40,6 +32,6 @@ struct Outlook {
 /// @throws ProblemException{TimedOut} when patience has come to its end, {DictionaryNotFound};
 /// Error{InvalidParameter, ...} as the job would
 [[nodiscard]] Outlook look_ahead(Services& services, const Question& question,
-                                 const Document& document, const Patience& patience);
+                                 const Subject& subject, const Patience& patience);
 
 }  // namespace lpf::server

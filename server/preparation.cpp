@@ -83,12 +83,9 @@ Document remove_duplicates(Document document, const JobInputs& inputs, const Exe
     const Flags flags = find_duplicates(document.shape.cloud.points, execution);
     report.duplicates = count(flags);
     if (report.duplicates == 0) return document;
-    const bool remove = inputs.duplicates == DuplicatePolicy::Remove;
-    job.warn("duplicate-points",
-             std::to_string(report.duplicates) +
-                 " points repeat the position of an earlier one; they were " +
-                 (remove ? "removed." : "kept (duplicates=remove drops them)."));
-    return remove ? without(document, flags, execution) : document;
+    const DuplicatePolicy policy = inputs.duplicates.value_or(DuplicatePolicy::Keep);
+    tell_duplicates(report.duplicates, policy, job);
+    return policy == DuplicatePolicy::Remove ? without(document, flags, execution) : document;
 }
 
 Document treat_outliers(Document document, const JobInputs& inputs, const Execution& execution,
@@ -107,6 +104,15 @@ Document treat_outliers(Document document, const JobInputs& inputs, const Execut
     return without(document, flags, execution);
 }
 
+Report report_of(const StatusInfo& job, const std::string& version, int threads) {
+    Report report;
+    report.version = version;
+    report.job_id = job.job_id;
+    report.process = job.process;
+    report.threads = threads;
+    return report;
+}
+
 /// Warnings that this step added to a document, told to the job.
 Document tell_new_warnings(Document document, std::size_t known, RunningJob& job) {
     for (std::size_t i = known; i < document.warnings.size(); ++i)
@@ -118,16 +124,29 @@ Document tell_new_warnings(Document document, std::size_t known, RunningJob& job
 
 Report start_report(const StatusInfo& job, const Document& document, const std::string& version,
                     int threads) {
-    Report report;
-    report.version = version;
-    report.job_id = job.job_id;
-    report.process = job.process;
+    Report report = report_of(job, version, threads);
     report.input_points = document.shape.size() + document.dropped_points;
     report.input_faces = document.face_count();
     report.non_finite = document.dropped_points;
-    report.threads = threads;
     if (document.shape.size() > 0) report.input_bounds = bounds_of(document.shape.cloud.points);
     return report;
+}
+
+Report start_report(const StatusInfo& job, const ShapeInfo& shape, std::size_t rows,
+                    const std::string& version, int threads) {
+    Report report = report_of(job, version, threads);
+    report.input_points = rows;
+    report.non_finite = rows - std::min<std::size_t>(rows, shape.points);
+    report.input_bounds = shape.bounds;
+    return report;
+}
+
+void tell_duplicates(std::uint64_t count, DuplicatePolicy policy, RunningJob& job) {
+    if (count == 0) return;
+    job.warn("duplicate-points",
+             std::to_string(count) + " points repeat the position of an earlier one; they were " +
+                 (policy == DuplicatePolicy::Remove ? "removed."
+                                                    : "kept (duplicates=remove drops them)."));
 }
 
 Document apply_policies(Document document, const JobInputs& inputs, const Execution& execution,
@@ -156,10 +175,11 @@ Document carry_attributes(Document document, Computation& result, const JobInput
     return tell_new_warnings(std::move(document), known, job);
 }
 
-void finish_report(Report& report, const Computation& result, const StatusInfo& job) {
-    report.fields = result.analysis.frames.size();
-    report.energy = result.analysis.energy;
-    report.rms_moves = result.rms_moves;
+void finish_report(Report& report, const AnalysisResult& analysis,
+                   const std::vector<double>& rms_moves, const StatusInfo& job) {
+    report.fields = analysis.frames.size();
+    report.energy = analysis.energy;
+    report.rms_moves = rms_moves;
     report.resolved_parameters = job.resolved_parameters;
     report.warnings = job.warnings;
 }

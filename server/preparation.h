@@ -3,6 +3,7 @@
 #include "api/codec/document.h"
 #include "api/job_inputs.h"
 #include "api/report.h"
+#include "api/shape_info.h"
 #include "server/computation.h"
 #include "server/running_job.h"
 
@@ -11,6 +12,13 @@ namespace lpf::server {
 /// A report that knows what came in.
 [[nodiscard]] Report start_report(const StatusInfo& job, const Document& document,
                                   const std::string& version, int threads);
+
+/// The same of a shape that is not held. @param rows of the file, also those that are not finite
+[[nodiscard]] Report start_report(const StatusInfo& job, const ShapeInfo& shape, std::size_t rows,
+                                  const std::string& version, int threads);
+
+/// Warns of points that repeat the position of an earlier one, if there are any.
+void tell_duplicates(std::uint64_t count, DuplicatePolicy policy, RunningJob& job);
 
 /// Finds duplicates and outliers, and keeps, marks or removes them as the inputs say.
 [[nodiscard]] Document apply_policies(Document document, const JobInputs& inputs,
@@ -23,6 +31,7 @@ namespace lpf::server {
                                         RunningJob& job, Report& report);
 
 /// Adds what the computation found.
-void finish_report(Report& report, const Computation& result, const StatusInfo& job);
+void finish_report(Report& report, const AnalysisResult& analysis,
+                   const std::vector<double>& rms_moves, const StatusInfo& job);
 
 }  // namespace lpf::server

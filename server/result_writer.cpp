@@ -38,9 +38,14 @@ void ResultWriter::store(ResultKind kind, std::string_view type, const std::stri
         throw_if_cancelled(execution_);
         writer->write(std::string_view(bytes).substr(at, kPiece));
     }
+    keep(kind, type, *writer);
+}
+
+void ResultWriter::keep(ResultKind kind, std::string_view type, BlobWriter& writer) {
     throw_if_cancelled(execution_);
+    const std::uint64_t bytes = writer.size();
     outcome_.results.push_back(
-        {kind, std::string(type), bytes.size(), outcome_.files_held.commit(*writer)});
+        {kind, std::string(type), bytes, outcome_.files_held.commit(writer)});
 }
 
 void ResultWriter::add_points(const Document& document, const JobInputs& inputs,
@@ -48,7 +53,7 @@ void ResultWriter::add_points(const Document& document, const JobInputs& inputs,
     EncodeOptions options;
     options.format = chosen_format(inputs, document);
     options.double_positions = document.double_positions;
-    options.comments = {"made by lpf-server " + version_};
+    options.comments = {made_by()};
     if (options.format == FileFormat::Draco) {
         options.quantization_bits =
             quantization_bits(inputs, document.shape.cloud.points, measurements.mean_spacing);
@@ -57,6 +62,17 @@ void ResultWriter::add_points(const Document& document, const JobInputs& inputs,
     const std::string bytes = encode(document, options, lost, execution_);
     for (const Warning& warning : lost) job_.warn(warning.code, warning.detail);
     store(ResultKind::Points, media_type(options.format), bytes);
+}
+
+WrittenPoints ResultWriter::add_moved(const PlyPoints& points,
+                                      std::span<const Eigen::Vector3f> moves,
+                                      std::uint64_t finite) {
+    const auto writer = storage_.blobs().create();
+    const WrittenPoints written = write_moved(
+        points, moves, finite, made_by(), [&](std::string_view piece) { writer->write(piece); },
+        execution_);
+    keep(ResultKind::Points, media_type(FileFormat::PlyBinary), *writer);
+    return written;
 }
 
 void ResultWriter::add_dictionary(const AnalysisResult& analysis) {

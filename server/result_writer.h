@@ -1,8 +1,10 @@
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "api/codec/format.h"
+#include "api/codec/ply_points.h"
 #include "api/report.h"
 #include "core/base/parallel.h"
 #include "server/running_job.h"
@@ -19,6 +21,9 @@ public:
 
     void add_points(const Document& document, const JobInputs& inputs,
                     const Measurements& measurements);
+    /// The points of a file, moved. @param finite how many of them are finite
+    WrittenPoints add_moved(const PlyPoints& points, std::span<const Eigen::Vector3f> moves,
+                            std::uint64_t finite);
     void add_dictionary(const AnalysisResult& analysis);
     void add_fields(const AnalysisResult& analysis);
     void add_report(const Report& report);
@@ -28,6 +33,8 @@ public:
 
 private:
     void store(ResultKind kind, std::string_view type, const std::string& bytes);
+    void keep(ResultKind kind, std::string_view type, BlobWriter& writer);
+    [[nodiscard]] std::string made_by() const { return "made by lpf-server " + version_; }
 
     Storage& storage_;
     RunningJob& job_;

@@ -4,37 +4,30 @@
 
 #include "api/dictionary_document.h"
 #include "api/report.h"
+#include "core/shape/outliers.h"
+#include "core/tiled_denoise.h"
 #include "server/computation.h"
-#include "server/mapped_file.h"
+#include "server/phases.h"
 #include "server/preparation.h"
 #include "server/result_writer.h"
+#include "server/streaming.h"
 
 namespace lpf::server {
 namespace {
 
-/// Where on the progress bar each part of a job ends [percent].
-constexpr double kDecoded = 3;
-constexpr double kPrepared = 5;
-constexpr double kMeasured = 8;
-constexpr double kComputed = 90;
-constexpr double kWritten = 99;
-
-/// Notes how long each phase took, for the report.
-class PhaseTimes {
-public:
-    void end_of(const std::string& phase) {
-        seconds_.emplace_back(phase, seconds_since(start_));
-        start_ = Clock::now();
-    }
-    [[nodiscard]] const auto& seconds() const { return seconds_; }
-
-private:
-    Clock::time_point start_ = Clock::now();
-    std::vector<std::pair<std::string, double>> seconds_;
-};
-
 void pass_on_warnings(RunningJob& job, const std::vector<Warning>& warnings) {
     for (const Warning& warning : warnings) job.warn(warning.code, warning.detail);
+}
+
+/// The report, and all that the job leaves behind.
+JobOutcome finish(Report report, ResultWriter& writer, const PhaseTimes& times,
+                  const RunningJob& job) {
+    report.phase_seconds = times.seconds();
+    report.total_seconds = job.seconds();
+    writer.add_report(report);
+    JobOutcome outcome = writer.take_outcome();
+    outcome.phase_seconds = times.seconds();
+    return outcome;
 }
 
 }  // namespace
@@ -51,11 +44,21 @@ Runner::Runner(Storage& storage, RunnerOptions options)
 
 JobOutcome Runner::run(RunningJob& job) const {
     const StatusInfo asked = job.info();
+    const ShapeInfo shape = find_shape(asked.shape);
+    const MappedFile file(storage_.blobs().local_file(shape.sha256));
+    const auto points = streamed_points(asked.process, asked.parameters, file, options_.limits,
+                                        options_.most_in_memory);
+    return points ? run(job, shape, *points) : run(job, file);
+}
+
+JobOutcome Runner::run(RunningJob& job, const MappedFile& file) const {
+    const StatusInfo asked = job.info();
     const JobInputs& inputs = asked.parameters;
     PhaseTimes times;
 
     job.enter_phase("decode", 0);
-    Document document = load_shape(asked.shape, execution(job, 0, kDecoded));
+    Document document =
+        decode(file.bytes(), decode_limits(options_.limits), execution(job, 0, kDecoded));
     pass_on_warnings(job, document.warnings);
     Report report = start_report(asked, document, options_.version, options_.threads);
     times.end_of("decode");
@@ -68,7 +71,7 @@ JobOutcome Runner::run(RunningJob& job) const {
     job.enter_phase("measure", kPrepared);
     report.measurements =
         measure(document.shape.cloud.points, execution(job, kPrepared, kMeasured));
-    const ResolvedParameters parameters = resolve(job, document, report.measurements);
+    const ResolvedParameters parameters = resolve(job, document.shape, report.measurements);
     times.end_of("measure");
 
     Computation result =
@@ -86,21 +89,51 @@ JobOutcome Runner::run(RunningJob& job) const {
     writer.add_fields(result.analysis);
     times.end_of("encode");
 
-    finish_report(report, result, job.info());
-    report.phase_seconds = times.seconds();
-    report.total_seconds = job.seconds();
-    writer.add_report(report);
-    JobOutcome outcome = writer.take_outcome();
-    outcome.phase_seconds = times.seconds();
-    return outcome;
+    finish_report(report, result.analysis, result.rms_moves, job.info());
+    return finish(std::move(report), writer, times, job);
 }
 
-Document Runner::load_shape(const std::string& shape_id, const Execution& execution) const {
+JobOutcome Runner::run(RunningJob& job, const ShapeInfo& shape, const PlyPoints& points) const {
+    const StatusInfo asked = job.info();
+    PhaseTimes times;
+
+    job.enter_phase("prepare", 0);
+    pass_on_warnings(job, shape.warnings);
+    Report report = start_report(asked, shape, points.size(), options_.version, options_.threads);
+    report.duplicates = count_duplicates(points, execution(job, 0, kPrepared));
+    tell_duplicates(report.duplicates, DuplicatePolicy::Keep, job);
+    times.end_of("prepare");
+
+    job.enter_phase("measure", kPrepared);
+    report.measurements = measure(points, execution(job, kPrepared, kMeasured));
+    const ResolvedParameters parameters = resolve(job, {}, report.measurements);
+    times.end_of("measure");
+
+    TiledDenoising result =
+        denoise_tiles(points, parameters.denoise, execution(job, kMeasured, kComputed));
+    times.end_of("compute");
+
+    job.enter_phase("encode", kComputed);
+    ResultWriter writer(storage_, job, options_.version, execution(job, kComputed, kWritten));
+    const WrittenPoints written =
+        writer.add_moved(points, result.moves, report.measurements.points);
+    report.output_points = written.points;
+    report.output_bounds = Bounds{written.minimum, written.maximum};
+    report.displacement =
+        displacement_statistics(lengths_of(result.moves, report.measurements.points));
+    writer.add_dictionary(result.analysis);
+    writer.add_fields(result.analysis);
+    times.end_of("encode");
+
+    finish_report(report, result.analysis, result.rms_moves, job.info());
+    return finish(std::move(report), writer, times, job);
+}
+
+ShapeInfo Runner::find_shape(const std::string& shape_id) const {
     const auto shape = storage_.jobs().find_shape(shape_id);
     if (!shape)
         throw ProblemException(ProblemCode::ShapeNotFound, "The shape of this job was deleted.");
-    const MappedFile file(storage_.blobs().local_file(shape->sha256));
-    return decode(file.bytes(), decode_limits(options_.limits), execution);
+    return *shape;
 }
 
 Dictionary Runner::load_dictionary(const std::string& dictionary_id) const {
@@ -114,7 +147,7 @@ Dictionary Runner::load_dictionary(const std::string& dictionary_id) const {
     return dictionary_from_json(json, options_.limits).dictionary;
 }
 
-ResolvedParameters Runner::resolve(RunningJob& job, const Document& document,
+ResolvedParameters Runner::resolve(RunningJob& job, const Shape& shape,
                                    const Measurements& measurements) const {
     const StatusInfo asked = job.info();
     ParameterRequest request = to_request(asked.parameters, measurements);
@@ -122,8 +155,7 @@ ResolvedParameters Runner::resolve(RunningJob& job, const Document& document,
         request.dictionary = load_dictionary(*asked.parameters.dictionary);
         request.keep_dictionary = asked.parameters.dictionary_mode == DictionaryMode::Fixed;
     }
-    ResolvedParameters parameters =
-        resolve_parameters(asked.process, document.shape, measurements, request);
+    ResolvedParameters parameters = resolve_parameters(asked.process, shape, measurements, request);
     job.update([&](StatusInfo& info) {
         info.resolved_parameters = resolved_parameters(parameters.values);
     });

@@ -3,8 +3,11 @@
 #include <string>
 
 #include "api/codec/format.h"
+#include "api/codec/ply_points.h"
 #include "api/limits.h"
+#include "api/shape_info.h"
 #include "core/auto_parameters.h"
+#include "server/mapped_file.h"
 #include "server/running_job.h"
 #include "server/storage.h"
 
@@ -14,6 +17,7 @@ struct RunnerOptions {
     Limits limits = {};
     int threads = 1;  ///< of each job
     std::string version;
+    std::size_t most_in_memory = kMostAtOnce;  ///< points; larger clouds are streamed, if they can
 };
 
 /// Limits of decoding that follow from those of the service.
@@ -28,10 +32,15 @@ public:
     [[nodiscard]] JobOutcome run(RunningJob& job) const;
 
 private:
-    [[nodiscard]] Document load_shape(const std::string& shape_id,
-                                      const Execution& execution) const;
+    /// The story of a job that holds its shape.
+    [[nodiscard]] JobOutcome run(RunningJob& job, const MappedFile& file) const;
+    /// The story of one that reads it part by part.
+    [[nodiscard]] JobOutcome run(RunningJob& job, const ShapeInfo& shape,
+                                 const PlyPoints& points) const;
+
+    [[nodiscard]] ShapeInfo find_shape(const std::string& shape_id) const;
     [[nodiscard]] Dictionary load_dictionary(const std::string& dictionary_id) const;
-    [[nodiscard]] ResolvedParameters resolve(RunningJob& job, const Document& document,
+    [[nodiscard]] ResolvedParameters resolve(RunningJob& job, const Shape& shape,
                                              const Measurements& measurements) const;
     [[nodiscard]] Execution execution(RunningJob& job, double low, double high) const;
 

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "api/codec/names.h"
 #include "api/codec/text.h"
 
 namespace lpf {
@@ -247,9 +248,41 @@ void HeaderParser::check_not_empty(const PlyElement& element) {
     }
 }
 
+std::string_view kind_of(FileFormat format) {
+    switch (format) {
+        case FileFormat::PlyAscii: return "ascii";
+        case FileFormat::PlyBigEndian: return "binary_big_endian";
+        default: return "binary_little_endian";
+    }
+}
+
+void append_lines(std::string_view keyword, const std::vector<std::string>& lines,
+                  std::string& out) {
+    for (const std::string& line : lines) {
+        out += message_of(keyword, line.empty() ? "" : " ", one_line(line), "\n");
+    }
+}
+
 }  // namespace
 
 PlyHeader parse_ply_header(std::span<const std::byte> bytes) { return HeaderParser(bytes).parse(); }
+
+std::string ply_header_text(const PlyHeader& header) {
+    std::string out = message_of("ply\nformat ", kind_of(header.format), " 1.0\n");
+    append_lines("comment", header.comments, out);
+    append_lines("obj_info", header.obj_info, out);
+    for (const PlyElement& element : header.elements) {
+        out += message_of("element ", element.name, " ", element.count, "\n");
+        for (const PlyProperty& property : element.properties) {
+            out += "property ";
+            if (property.is_list) {
+                out += message_of("list ", ply_type_name(property.count_type), " ");
+            }
+            out += message_of(ply_type_name(property.type), " ", property.name, "\n");
+        }
+    }
+    return out + "end_header\n";
+}
 
 std::string_view ply_type_name(ScalarType type) {
     for (const auto& [name, known] : kTypes) {

@@ -41,6 +41,9 @@ inline constexpr std::uint64_t kMaxPlyListLength = 65536;
 /// @throws Error{MalformedFile} with the line; Error{LimitExceeded}
 [[nodiscard]] PlyHeader parse_ply_header(std::span<const std::byte> bytes);
 
+/// The text that says so, to the end of `end_header`. @pre names are single words
+[[nodiscard]] std::string ply_header_text(const PlyHeader& header);
+
 /// The short, oldest name of a type ("uchar", "float"), which every reader knows.
 [[nodiscard]] std::string_view ply_type_name(ScalarType type);
 

@@ -178,35 +178,23 @@ void PlyWriter::add_attributes(PlyOutputElement& element, const std::vector<Attr
     }
 }
 
-std::string_view kind_of(FileFormat format) {
-    switch (format) {
-        case FileFormat::PlyAscii: return "ascii";
-        case FileFormat::PlyBigEndian: return "binary_big_endian";
-        default: return "binary_little_endian";
-    }
-}
-
-void append_lines(std::string_view keyword, const std::vector<std::string>& lines,
-                  std::string& out) {
-    for (const std::string& line : lines) {
-        out += message_of(keyword, line.empty() ? "" : " ", one_line(line), "\n");
-    }
-}
-
 std::string PlyWriter::header() const {
-    std::string out = message_of("ply\nformat ", kind_of(options_.format), " 1.0\n");
-    append_lines("comment", options_.comments, out);
-    append_lines("comment", document_.comments, out);
-    append_lines("obj_info", document_.obj_info, out);
+    PlyHeader header{.format = options_.format,
+                     .elements = {},
+                     .comments = options_.comments,
+                     .obj_info = document_.obj_info};
+    header.comments.insert(header.comments.end(), document_.comments.begin(),
+                           document_.comments.end());
     for (const PlyOutputElement& element : elements_) {
-        out += message_of("element ", element.name, " ", element.rows, "\n");
+        PlyElement& listed = header.elements.emplace_back();
+        listed.name = element.name;
+        listed.count = element.rows;
         for (const PlyOutputColumn& column : element.columns) {
-            out += "property ";
-            if (column.is_list) out += message_of("list ", ply_type_name(column.count_type), " ");
-            out += message_of(ply_type_name(column.type), " ", column.name, "\n");
+            listed.properties.push_back(
+                {column.name, column.type, column.is_list, column.count_type});
         }
     }
-    return out + "end_header\n";
+    return ply_header_text(header);
 }
 
 /// Makes room for binary rows exactly, and for ASCII rows roughly.

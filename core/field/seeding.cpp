@@ -93,7 +93,8 @@ public:
           grid_(grid),
           params_(params),
           place_(grid.places(execution)),
-          care_(grid.size(), kOpen) {}
+          care_(grid.size(), kOpen),
+          outside_(distances_to_region(execution)) {}
 
     Seeds run(const Execution& execution) {
         const std::vector<double> radii = radii_to_try(params_);
@@ -114,6 +115,18 @@ public:
     }
 
 private:
+    [[nodiscard]] std::vector<double> distances_to_region(const Execution& execution) const {
+        std::vector<double> distances(params_.region.empty() ? 0 : place_.size());
+        parallel_for(execution, distances.size(), kPointsPerChunk,
+                     [&](std::size_t begin, std::size_t end, std::size_t) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                             distances[i] = distance_to(params_.region,
+                                                        points_.col(static_cast<Eigen::Index>(i)));
+                         }
+                     });
+        return distances;
+    }
+
     /// Of the points that nothing takes care of, in the order of the input.
     [[nodiscard]] Indices open_places(double radius, const Execution& execution) const {
         const double reach = params_.target_radius * radius;
@@ -122,9 +135,9 @@ private:
                      [&](std::size_t begin, std::size_t end, std::size_t chunk) {
                          for (std::size_t i = begin; i < end; ++i) {
                              if (care_[place_[i]] != kOpen) continue;
-                             const auto point = points_.col(static_cast<Eigen::Index>(i));
-                             if (!is_near(params_.region, point, reach)) continue;
-                             parts[chunk].push_back(place_[i]);
+                             if (outside_.empty() || outside_[i] <= reach) {
+                                 parts[chunk].push_back(place_[i]);
+                             }
                          }
                      });
         Indices open;
@@ -350,6 +363,7 @@ private:
     const SeedingParams& params_;
     Indices place_;                   // in the grid's order, of each point
     std::vector<std::uint8_t> care_;  // Care of each point, in the grid's order
+    std::vector<double> outside_;     // how far from the region each is; empty: there is none
     std::vector<Seed> seeds_;
 };
 

@@ -16,20 +16,20 @@ struct Box {
         return (p.array() >= low.array()).all() && (p.array() < high.array()).all();
     }
 
-    /// Whether a place lies in the box or no further from it than `distance`, axis by axis.
-    [[nodiscard]] bool is_near(const Eigen::Vector3d& p, double distance) const {
-        return (p.array() >= low.array() - distance).all() &&
-               (p.array() < high.array() + distance).all();
+    /// How far a place lies outside, along the axis where that is furthest; 0 within.
+    [[nodiscard]] double distance_to(const Eigen::Vector3d& p) const {
+        return std::max(0.0, (low - p).cwiseMax(p - high).maxCoeff());
     }
 };
 
 /// The part of space that is worked on: boxes, or all of it where there are none.
 using Region = std::vector<Box>;
 
-[[nodiscard]] inline bool is_near(const Region& region, const Eigen::Vector3d& p, double distance) {
-    return region.empty() || std::ranges::any_of(region, [&](const Box& box) {
-               return box.is_near(p, distance);
-           });
+/// To the nearest box; 0 where there are none.
+[[nodiscard]] inline double distance_to(const Region& region, const Eigen::Vector3d& p) {
+    double nearest = region.empty() ? 0.0 : std::numeric_limits<double>::infinity();
+    for (const Box& box : region) nearest = std::min(nearest, box.distance_to(p));
+    return nearest;
 }
 
 }  // namespace lpf

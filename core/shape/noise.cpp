@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/random.h"
 #include "core/shape/point_grid.h"
+#include "core/shape/tiling.h"
 
 namespace lpf {
 namespace {
@@ -42,6 +43,13 @@ constexpr double kFewestForTwo = 50;  // of fewer points, chance makes two group
 constexpr double kLargestBall = 0.25;
 constexpr std::size_t kMostInBall = 3000;
 
+/// A cloud that is not in memory is measured in so many boxes of about so many points each, first
+/// without what lies around them, then with all within so many radii and sigma that show.
+constexpr std::size_t kBoxes = 256;
+constexpr double kPointsInBox = 512;
+constexpr double kRadiiAround = 1.5;
+constexpr double kSigmasAround = 8.0;
+
 double quantile(std::vector<double>& values, double share) {
     if (values.empty()) return 0.0;
     const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
@@ -51,16 +59,24 @@ double quantile(std::vector<double>& values, double share) {
 
 double median(std::vector<double>& values) { return quantile(values, 0.5); }
 
-/// Up to `count` points spread over the cloud, the same for every run.
-std::vector<Eigen::Index> sample(const Points& points, std::size_t count) {
-    const auto n = static_cast<std::size_t>(points.cols());
-    std::vector<Eigen::Index> chosen;
-    Random random(n, 0x3e45);
-    for (std::size_t i = 0; i < std::min(n, count); ++i) {
-        chosen.push_back(static_cast<Eigen::Index>(n <= count ? i : random.below(n)));
+/// A cloud, and those of its points that all others near them belong to; empty: it is whole.
+struct Sampled {
+    const Points& points;
+    std::vector<Eigen::Index> complete = {};
+
+    /// Up to `count` of them spread over the cloud, the same for every run.
+    [[nodiscard]] std::vector<Eigen::Index> some(std::size_t count) const {
+        const std::size_t n =
+            complete.empty() ? static_cast<std::size_t>(points.cols()) : complete.size();
+        std::vector<Eigen::Index> chosen;
+        Random random(n, 0x3e45);
+        for (std::size_t i = 0; i < std::min(n, count); ++i) {
+            const std::size_t k = n <= count ? i : random.below(n);
+            chosen.push_back(complete.empty() ? static_cast<Eigen::Index>(k) : complete[k]);
+        }
+        return chosen;
     }
-    return chosen;
-}
+};
 
 /// The variance within two groups of heights, split where it is least (2-means from the mean).
 double variance_of_two(const std::vector<double>& heights) {
@@ -158,15 +174,16 @@ double noise_around(const PointGrid& grid, const Eigen::Vector3d& point, double 
 }
 
 /// A low quantile over a sample of the points, each in a ball of its own.
-double noise_of(const Points& points, const PointGrid& grid, double radius, double largest,
+double noise_of(const Sampled& cloud, const PointGrid& grid, double radius, double largest,
                 const Execution& execution) {
-    const std::vector<Eigen::Index> chosen = sample(points, kNoiseSample);
+    const std::vector<Eigen::Index> chosen = cloud.some(kNoiseSample);
     std::vector<double> spreads(chosen.size(), -1.0);
     parallel_for(execution, chosen.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
         NearPoints ball;
         std::vector<double> heights;
         for (std::size_t i = begin; i < end; ++i) {
-            spreads[i] = noise_around(grid, points.col(chosen[i]), radius, largest, ball, heights);
+            spreads[i] =
+                noise_around(grid, cloud.points.col(chosen[i]), radius, largest, ball, heights);
         }
     });
     std::erase(spreads, -1.0);
@@ -207,9 +224,9 @@ Surroundings surroundings(const PointGrid& grid, const Eigen::Vector3d& point, d
 /// Distances to the nearest other position, and to the point that makes the ball full.
 /// @param cell of the grid
 /// @returns the median radius of the smallest ball to look for noise in
-double measure_spacing(const Points& points, const PointGrid& grid, double cell,
+double measure_spacing(const Sampled& cloud, const PointGrid& grid, double cell,
                        Measurements& result, const Execution& execution) {
-    const std::vector<Eigen::Index> chosen = sample(points, kSpacingSample);
+    const std::vector<Eigen::Index> chosen = cloud.some(kSpacingSample);
     const std::size_t k = std::min(kPointsInBall, result.points);
     std::vector<Surroundings> around(chosen.size());
     parallel_for(
@@ -217,7 +234,8 @@ double measure_spacing(const Points& points, const PointGrid& grid, double cell,
             NearPoints ball;
             std::vector<float> squared;
             for (std::size_t i = begin; i < end; ++i) {
-                around[i] = surroundings(grid, points.col(chosen[i]), 1.5 * cell, k, ball, squared);
+                around[i] =
+                    surroundings(grid, cloud.points.col(chosen[i]), 1.5 * cell, k, ball, squared);
             }
         });
     std::erase_if(around, [](const Surroundings& s) { return s.nearest < 0; });
@@ -238,9 +256,8 @@ double measure_spacing(const Points& points, const PointGrid& grid, double cell,
     return radius > 0 ? radius : result.mean_spacing;
 }
 
-}  // namespace
-
-Measurements measure(const Points& points, const Execution& execution) {
+Measurements measure(const Sampled& cloud, const Execution& execution) {
+    const Points& points = cloud.points;
     Measurements result;
     result.points = static_cast<std::size_t>(points.cols());
     if (result.points < 3) {
@@ -254,9 +271,43 @@ Measurements measure(const Points& points, const Execution& execution) {
     }
     const double cell = cell_of_some_points(points, kPointsInCell);
     const PointGrid grid(points, cell, execution);
-    const double radius = measure_spacing(points, grid, cell, result, execution);
+    const double radius = measure_spacing(cloud, grid, cell, result, execution);
     result.noise =
-        noise_of(points, grid, radius, std::max(radius, kLargestBall * result.diagonal), execution);
+        noise_of(cloud, grid, radius, std::max(radius, kLargestBall * result.diagonal), execution);
+    return result;
+}
+
+/// Measures in and around the boxes of an excerpt.
+Measurements measure(const PointSource& source, const Excerpt& excerpt,
+                     const Execution& execution) {
+    Points points;
+    source.read(excerpt.points, points);
+    source.let_go();
+    Sampled cloud{points};
+    for (Eigen::Index i = 0; i < points.cols(); ++i) {
+        if (distance_to(excerpt.boxes, points.col(i)) <= 0) cloud.complete.push_back(i);
+    }
+    return measure(cloud, execution);
+}
+
+}  // namespace
+
+Measurements measure(const Points& points, const Execution& execution) {
+    return measure(Sampled{points}, execution);
+}
+
+Measurements measure(const PointSource& source, const Execution& execution) {
+    const Sketch sketch = make_sketch(source, execution);
+    const Partition partition(sketch, kPointsInBox);
+    const auto measure_with = [&](double around) {
+        const Excerpt excerpt = make_excerpt(source, partition, kBoxes, around, execution);
+        return measure(source, excerpt, execution);
+    };
+    const Measurements rough = measure_with(0.0);
+    Measurements result =
+        measure_with(std::max(kRadiiAround * rough.density_radius, kSigmasAround * rough.noise));
+    result.points = sketch.of;
+    result.diagonal = (sketch.high - sketch.low).norm();
     return result;
 }
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "core/base/parallel.h"
-#include "core/shape/point_cloud.h"
+#include "core/shape/point_source.h"
 
 namespace lpf {
 
@@ -19,5 +19,9 @@ struct Measurements {
 /// Measures a cloud on a sample of its points. Duplicates do not count as neighbours.
 /// @throws Error{TooFewPoints} below 3 points, Error{DegenerateShape} if all coincide
 [[nodiscard]] Measurements measure(const Points& points, const Execution& execution);
+
+/// The same for a cloud that need not be in memory, on some parts of it. Points that are not finite
+/// do not count.
+[[nodiscard]] Measurements measure(const PointSource& source, const Execution& execution);
 
 }  // namespace lpf

@@ -100,8 +100,8 @@ Sketch make_sketch(const PointSource& source, const Execution& execution) {
 
 Partition::Partition(const Sketch& sketch, double most) {
     std::vector<Eigen::Vector3d> points = sketch.points;
-    const double share =
-        static_cast<double>(points.size()) / static_cast<double>(std::max<std::size_t>(1, sketch.of));
+    const double share = static_cast<double>(points.size()) /
+                         static_cast<double>(std::max<std::size_t>(1, sketch.of));
     build(points, std::max(1.0, most * share), Box{});
 }
 
@@ -154,18 +154,37 @@ Tiling::Tiling(const PointSource& source, const Partition& partition, double mar
     });
 }
 
+std::vector<std::uint32_t> Partition::choose(std::size_t count) const {
+    const std::size_t all = boxes_.size();
+    const std::size_t some = std::min(count, all);
+    std::vector<std::uint32_t> chosen;
+    for (std::size_t i = 0; i < some; ++i) {
+        chosen.push_back(static_cast<std::uint32_t>((2 * i + 1) * all / (2 * some)));
+    }
+    return chosen;
+}
+
+std::vector<std::uint8_t> Partition::nodes_above(const std::vector<std::uint32_t>& boxes) const {
+    std::vector<std::uint8_t> above(nodes_.size(), 0);
+    // Nodes come before those below them.
+    for (std::size_t at = nodes_.size(); at-- > 0;) {
+        const Node& node = nodes_[at];
+        above[at] = node.axis < 0 ? std::ranges::binary_search(boxes, node.low)
+                                  : above[node.low] || above[node.high];
+    }
+    return above;
+}
+
 Excerpt make_excerpt(const PointSource& source, const Partition& partition, std::size_t boxes,
                      double margin, const Execution& execution) {
-    const std::vector<Box>& all = partition.boxes();
+    const std::vector<std::uint32_t> chosen = partition.choose(boxes);
+    const Partition::Nearness is_near(partition, chosen);
     Excerpt excerpt;
-    const std::size_t count = std::min(boxes, all.size());
-    for (std::size_t i = 0; i < count; ++i) {
-        excerpt.boxes.push_back(all[(2 * i + 1) * all.size() / (2 * count)]);
-    }
+    for (const std::uint32_t box : chosen) excerpt.boxes.push_back(partition.boxes()[box]);
     std::vector<std::vector<std::uint32_t>> parts(kPartsOfPass);
     for_each_point(source, execution,
                    [&](std::size_t part, std::size_t index, const Eigen::Vector3d& place) {
-                       if (!is_near(excerpt.boxes, place, margin)) return;
+                       if (!is_near(place, margin)) return;
                        parts[part].push_back(static_cast<std::uint32_t>(index));
                    });
     excerpt.points = joined(parts);

@@ -35,8 +35,28 @@ public:
     /// Visits the boxes that a place lies in or near to, by their numbers, ascending.
     template <typename Visit>
     void for_each_near(const Eigen::Vector3d& place, double distance, const Visit& visit) const {
-        descend(0, place, distance, visit);
+        descend(0, place, distance, {}, visit);
     }
+
+    /// Some of the boxes, evenly over all. @returns their numbers, ascending
+    [[nodiscard]] std::vector<std::uint32_t> choose(std::size_t count) const;
+
+    /// Whether a place lies in or near to one of some boxes.
+    class Nearness {
+    public:
+        Nearness(const Partition& partition, const std::vector<std::uint32_t>& boxes)
+            : partition_(partition), leads_to_(partition.nodes_above(boxes)) {}
+
+        [[nodiscard]] bool operator()(const Eigen::Vector3d& place, double distance) const {
+            bool near = false;
+            partition_.descend(0, place, distance, leads_to_, [&](std::uint32_t) { near = true; });
+            return near;
+        }
+
+    private:
+        const Partition& partition_;
+        std::vector<std::uint8_t> leads_to_;
+    };
 
 private:
     struct Node {
@@ -48,14 +68,20 @@ private:
 
     std::uint32_t build(std::span<Eigen::Vector3d> points, double most, const Box& box);
 
+    /// @returns for each node whether one of the boxes lies below it
+    [[nodiscard]] std::vector<std::uint8_t> nodes_above(
+        const std::vector<std::uint32_t>& boxes) const;
+
+    /// @param among the nodes that are descended to; empty: all
     template <typename Visit>
     void descend(std::uint32_t at, const Eigen::Vector3d& place, double distance,
-                 const Visit& visit) const {
+                 std::span<const std::uint8_t> among, const Visit& visit) const {
+        if (!among.empty() && !among[at]) return;
         const Node& node = nodes_[at];
         if (node.axis < 0) return visit(node.low);
         const double beyond = place[node.axis] - node.cut;
-        if (beyond < distance) descend(node.low, place, distance, visit);
-        if (beyond >= -distance) descend(node.high, place, distance, visit);
+        if (beyond < distance) descend(node.low, place, distance, among, visit);
+        if (beyond >= -distance) descend(node.high, place, distance, among, visit);
     }
 
     std::vector<Node> nodes_;

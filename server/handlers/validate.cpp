@@ -4,7 +4,6 @@
 #include "api/codec/format.h"
 #include "api/http_text.h"
 #include "api/json_text.h"
-#include "api/memory_need.h"
 #include "api/parameters.h"
 #include "api/validation.h"
 #include "server/answer.h"
@@ -14,7 +13,6 @@
 #include "server/mapped_file.h"
 #include "server/outlook.h"
 #include "server/result_writer.h"
-#include "server/runner.h"
 
 namespace lpf::server {
 namespace {
@@ -59,11 +57,18 @@ Inquiry read_inquiry(Services& services, const http::Request& request, Task task
     return inquiry_from_body(services, request, task, type == "multipart/form-data");
 }
 
-void require_workable(const Document& document) {
+void require_workable(const Subject& subject) {
     ShapeInfo info;
-    info.points = document.shape.size();
-    if (info.points > 0) info.bounds = bounds_of(document.shape.cloud.points);
+    info.points = subject.points;
+    info.bounds = subject.bounds;
     server::require_workable(info);
+}
+
+/// Of a Draco result; positions of other formats are not rounded to a lattice.
+int quantization_bits(const Subject& subject, const Validation& v) {
+    if (subject.streamed) return 0;
+    return server::quantization_bits(v.parameters, subject.document.shape.cloud.points,
+                                     v.measurements.mean_spacing);
 }
 
 OddPoints odd_points(const Document& document, const Findings& found) {
@@ -73,9 +78,10 @@ OddPoints odd_points(const Document& document, const Findings& found) {
 }
 
 /// Fills in all that follows from the shape.
-void fill_in(Services& services, const Document& document, Outlook outlook, Validation& v) {
+void fill_in(Services& services, const Subject& subject, Outlook outlook, Validation& v) {
+    const Document& document = subject.document;
     v.format = file_extension(document.format);
-    v.points = document.shape.size();
+    v.points = subject.points;
     v.faces = document.face_count();
     v.examined_share = outlook.examined_share;
     v.measurements = outlook.measurements;
@@ -83,9 +89,8 @@ void fill_in(Services& services, const Document& document, Outlook outlook, Vali
     v.threads = services.config.threads;
     v.work = outlook.work;
     v.estimate = outlook.estimate;
-    v.attributes = plan_attributes(
-        v.process, document, v.parameters,
-        quantization_bits(v.parameters, document.shape.cloud.points, v.measurements.mean_spacing));
+    v.attributes =
+        plan_attributes(v.process, document, v.parameters, quantization_bits(subject, v));
     const OddPoints odd = odd_points(document, outlook.found);
     v.neighbours = {outlook.parameters.analysis.radius, std::move(outlook.found.neighbours)};
     const auto limit = static_cast<double>(services.limits().job_seconds);
@@ -107,15 +112,14 @@ http::Response validate_process(Services& services, http::Request& request) {
     validation.parameters = inquiry.inputs;
 
     const MappedFile file(inquiry.file);
+    const Question question{task, inquiry.inputs, file.bytes().size()};
     const DecodingRoom::Seat seat(services.decoding,
-                                  decoding_bytes(file.bytes(), services.limits()));
+                                  subject_bytes(question, file, services.limits()));
     const Patience patience(request);
-    const Document document = decode(file.bytes(), decode_limits(services.limits()));
-    require_workable(document);
-    check_result_size(inquiry.inputs, document.shape.size(), services.limits());
-    fill_in(services, document,
-            look_ahead(services, {task, inquiry.inputs, file.bytes().size()}, document, patience),
-            validation);
+    const Subject subject = read_subject(question, file, services.limits(), {});
+    require_workable(subject);
+    check_result_size(inquiry.inputs, subject.points, services.limits());
+    fill_in(services, subject, look_ahead(services, question, subject, patience), validation);
     return json_response(to_json(validation));
 }
 

@@ -43,6 +43,18 @@ TEST(MemoryNeed, TheEstimateOfALookLiesInTheRange) {
     }
 }
 
+TEST(MemoryNeed, AStreamedJobNeedsFarLess) {
+    const MemoryRange held = memory_range(Task::Denoise, {}, scan(15'000'000));
+    const MemoryRange streamed = memory_range(Task::Denoise, {}, scan(15'000'000), 2);
+    ASSERT_TRUE(streamed.most);
+    EXPECT_LT(*streamed.most, 0.6 * held.least);
+    EXPECT_LT(memory_range(Task::Denoise, {}, scan(100'000'000), 2).least, 3e9);
+    EXPECT_GT(memory_range(Task::Denoise, {}, scan(15'000'000), 4).least, streamed.least);
+    // A radius of the user's may make as many LPFs as there are points.
+    EXPECT_GT(*memory_range(Task::Denoise, {.radius = 1.0}, scan(15'000'000), 2).most,
+              2 * *streamed.most);
+}
+
 TEST(MemoryNeed, OnlyALookTellsWhatDependsOnMoreThanCounts) {
     ShapeInfo mesh = scan(1000);
     mesh.faces = 2000;

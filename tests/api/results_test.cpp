@@ -257,6 +257,11 @@ TEST(Displacement, StatisticsOfKnownMoves) {
     EXPECT_EQ(s.p99, 3.0);
     EXPECT_EQ(s.max, 3.0);
     EXPECT_EQ(displacement_statistics(Points(3, 0), Points(3, 0)).max, 0.0);
+    const DisplacementStatistics of_lengths = displacement_statistics({4.0F, 0.0F, 2.0F, 2.0F});
+    EXPECT_EQ(of_lengths.mean, 2.0);
+    EXPECT_EQ(of_lengths.rms, std::sqrt(6.0));
+    EXPECT_EQ(of_lengths.p50, 2.0);
+    EXPECT_EQ(of_lengths.max, 4.0);
 }
 
 TEST(Report, SaysWhatTheProcessHas) {

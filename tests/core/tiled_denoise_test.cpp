@@ -149,8 +149,7 @@ TEST(TiledDenoise, AGivenDictionaryIsKept) {
         denoise(scan.cloud, scan.params, {.threads = 2}).analysis.dictionary;
     scan.params.analysis.keep_dictionary = true;
     const TiledDenoising tiled = scan.tiled();
-    EXPECT_EQ(tiled.analysis.dictionary.gram(),
-              scan.params.analysis.initial_dictionary->gram());
+    EXPECT_EQ(tiled.analysis.dictionary.gram(), scan.params.analysis.initial_dictionary->gram());
 }
 
 TEST(TiledDenoise, SaysWhatCannotBeDone) {
@@ -166,11 +165,10 @@ TEST(TiledDenoise, SaysWhatCannotBeDone) {
 TEST(TiledDenoise, StopsWhenAsked) {
     const Scan scan("cube", 20'000);
     std::stop_source stop;
-    const Execution execution{.threads = 2,
-                              .stop = stop.get_token(),
-                              .progress = [&](const Progress& progress) {
-                                  if (progress.unit == "tiles") stop.request_stop();
-                              }};
+    const Execution execution{
+        .threads = 2, .stop = stop.get_token(), .progress = [&](const Progress& progress) {
+            if (progress.unit == "tiles") stop.request_stop();
+        }};
     try {
         (void)denoise_tiles(PointsInMemory(scan.shape.points), scan.params, execution, kSmallTiles);
         ADD_FAILURE() << "no exception";

@@ -34,8 +34,8 @@ TEST(Examination, OfAPartTellsOfTheWhole) {
     const ShapePart part = part_of_shape(shape, 20'000);
     EXPECT_FALSE(part.is_whole());
     EXPECT_NEAR(part.share, 1.0 / 3, 0.12);
-    const Measurements expected = measure_part(whole, shape, {});
-    const Measurements measured = measure_part(part, shape, {});
+    const Measurements expected = measure_part(whole, 60'000, 0.0, {});
+    const Measurements measured = measure_part(part, 60'000, expected.diagonal, {});
     EXPECT_EQ(measured.points, 60'000U);
     EXPECT_EQ(measured.diagonal, expected.diagonal);
     EXPECT_NEAR(measured.mean_spacing, expected.mean_spacing, 0.1 * expected.mean_spacing);
@@ -58,7 +58,7 @@ TEST(Examination, FindsDuplicatesOutliersAndNeighbours) {
     ParameterRequest request;
     request.radius = 0.5;
     const ResolvedParameters parameters =
-        resolve_parameters(Task::Denoise, shape, measure_part(part, shape, {}), request);
+        resolve_parameters(Task::Denoise, shape, measure_part(part, 5000, 0.0, {}), request);
     const Findings found = examine(part, parameters, {});
     EXPECT_EQ(found.duplicates, 500);
     EXPECT_GE(found.outliers, 1);

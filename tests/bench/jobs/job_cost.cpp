@@ -15,10 +15,14 @@
 
 #include "api/codec/format.h"
 #include "api/codec/summary.h"
+#include "api/report.h"
 #include "core/auto_parameters.h"
+#include "core/shape/outliers.h"
+#include "core/tiled_denoise.h"
 #include "server/computation.h"
 #include "server/file_blob_store.h"
 #include "server/mapped_file.h"
+#include "server/streaming.h"
 #include "tests/bench/jobs/cost_meter.h"
 
 namespace lpf::bench {
@@ -27,6 +31,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kPiece = 1U << 20U;
+const DecodeLimits kAnySize{.max_points = 1'000'000'000, .max_faces = 1'000'000'000};
 
 struct Options {
     std::string file;
@@ -82,6 +87,38 @@ Points computed(const Options& options, const Shape& shape, const Execution& exe
     return *std::move(result.points);
 }
 
+std::optional<PlyPoints> streamed(const Options& options, const server::MappedFile& file) {
+    if (options.task != "denoise" || !options.format.empty()) return std::nullopt;
+    Limits limits;
+    limits.points = kAnySize.max_points;
+    return server::streamed_points(Task::Denoise, {}, file, limits);
+}
+
+/// What the server does with a file that it does not hold.
+Work run_streamed(const Options& options, const PlyPoints& points, server::FileBlobStore& blobs,
+                  const Execution& execution, CostMeter& meter) {
+    meter.begin("prepare");
+    (void)count_duplicates(points, {.threads = options.threads});
+    meter.begin("measure");
+    const Measurements measurements = measure(points, {.threads = options.threads});
+    const ResolvedParameters parameters = resolve_parameters(Task::Denoise, {}, measurements, {});
+    meter.begin("prepare");
+    const TiledDenoising result = denoise_tiles(points, parameters.denoise, execution);
+    meter.begin("write");
+    const auto writer = blobs.create();
+    write_moved(points, result.moves, measurements.points, "measured",
+                [&](std::string_view piece) { writer->write(piece); }, {});
+    const std::string digest = writer->commit();
+    meter.begin("report");
+    (void)displacement_statistics(server::lengths_of(result.moves, measurements.points));
+    meter.end();
+    if (!options.output.empty()) {
+        fs::copy_file(blobs.local_file(digest), options.output,
+                      fs::copy_options::overwrite_existing);
+    }
+    return {.points = points.size(), .fields = result.analysis.frames.size()};
+}
+
 Work run(const Options& options, CostMeter& meter) {
     const fs::path folder = temporary_folder();
     const std::shared_ptr<void> cleaner(nullptr, [&](void*) { fs::remove_all(folder); });
@@ -94,9 +131,13 @@ Work run(const Options& options, CostMeter& meter) {
     const fs::path kept = receive(options.file, blobs);
     const server::MappedFile file(kept);
     meter.begin("inspect");
-    (void)summarize(file.bytes(), {}, {});
+    (void)summarize(file.bytes(), kAnySize,
+                    {.passed = [&](std::size_t bytes) { file.let_go(bytes); }});
+    if (const auto points = streamed(options, file)) {
+        return run_streamed(options, *points, blobs, execution, meter);
+    }
     meter.begin("decode");
-    Document document = decode(file.bytes(), {}, {.threads = options.threads});
+    Document document = decode(file.bytes(), kAnySize, {.threads = options.threads});
     Work work{.points = document.shape.cloud.size()};
     document.shape.cloud.points = computed(options, document.shape, execution, work, meter);
     meter.begin("write");

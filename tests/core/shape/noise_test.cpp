@@ -31,6 +31,19 @@ TEST(Measure, MeanSpacingOfASampleIsAboutThatOfAll) {
     EXPECT_NEAR(measure(points, {}).mean_spacing, exact, 0.05 * exact);
 }
 
+TEST(Measure, ALargeCloudIsMeasuredOnPartsOfIt) {
+    Points points = test::make_sphere({.points = 1'500'000, .noise = 0.01}).points.colwise() +
+                    Eigen::Vector3d(3, 0, 0);
+    const Measurements whole = measure(points, {.threads = 2});
+    points(1, 77) = std::numeric_limits<double>::quiet_NaN();
+    const Measurements parts = measure(PointsInMemory(points), {.threads = 2});
+    EXPECT_EQ(parts.points, 1'499'999U);
+    EXPECT_NEAR(parts.diagonal, whole.diagonal, 1e-9);
+    EXPECT_NEAR(parts.mean_spacing, whole.mean_spacing, 0.03 * whole.mean_spacing);
+    EXPECT_NEAR(parts.density_radius, whole.density_radius, 0.03 * whole.density_radius);
+    EXPECT_NEAR(parts.noise, whole.noise, 0.03 * whole.noise);
+}
+
 TEST(Measure, DuplicatesDoNotCountAsNeighbours) {
     const Points points = test::make_plane({.points = 1000}).points;
     const double once = measure(points, {}).mean_spacing;
