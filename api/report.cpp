@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "api/analysis_json.h"
 #include "api/parameters.h"
@@ -13,16 +14,19 @@ namespace {
 
 using nlohmann::json;
 
-/// The smallest value that at least `share` of all values do not exceed. @pre sorted, not empty
+/// The smallest value that at least `share` of all values do not exceed; values are put in order
+/// about it. @pre not empty
 template <typename Length>
-double quantile(const std::vector<Length>& sorted, double share) {
-    const auto rank = std::ceil(share * static_cast<double>(sorted.size()));
-    return static_cast<double>(sorted[static_cast<std::size_t>(std::max(rank, 1.0)) - 1]);
+double quantile(std::span<Length> values, double share) {
+    const auto rank = std::ceil(share * static_cast<double>(values.size()));
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::max(rank, 1.0)) - 1;
+    std::ranges::nth_element(values, at);
+    return static_cast<double>(*at);
 }
 
-/// @param lengths will be sorted
+/// @param lengths will be put in another order
 template <typename Length>
-DisplacementStatistics statistics_of(std::vector<Length>& lengths) {
+DisplacementStatistics statistics_of(std::span<Length> lengths) {
     if (lengths.empty()) return {};
     const auto n = static_cast<double>(lengths.size());
     double sum = 0.0;
@@ -32,13 +36,12 @@ DisplacementStatistics statistics_of(std::vector<Length>& lengths) {
         sum += length;
         squares += length * length;
     }
-    std::ranges::sort(lengths);
     return {.rms = std::sqrt(squares / n),
             .mean = sum / n,
             .p50 = quantile(lengths, 0.5),
             .p90 = quantile(lengths, 0.9),
             .p99 = quantile(lengths, 0.99),
-            .max = static_cast<double>(lengths.back())};
+            .max = static_cast<double>(*std::ranges::max_element(lengths))};
 }
 
 json shape_to_json(std::uint64_t points, const std::optional<Bounds>& bounds) {
@@ -74,11 +77,11 @@ DisplacementStatistics displacement_statistics(const Points& before, const Point
     for (Eigen::Index i = 0; i < before.cols(); ++i) {
         lengths[static_cast<std::size_t>(i)] = (after.col(i) - before.col(i)).norm();
     }
-    return statistics_of(lengths);
+    return statistics_of(std::span(lengths));
 }
 
 DisplacementStatistics displacement_statistics(std::vector<float> lengths) {
-    return statistics_of(lengths);
+    return statistics_of(std::span(lengths));
 }
 
 json to_json(const Report& report) {

@@ -1,6 +1,7 @@
 #include "core/tiled_denoise.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "core/base/joined_progress.h"
 #include "core/field_set.h"
 #include "core/outer_iteration.h"
+#include "core/shape/outliers.h"
 #include "core/shape/tiling.h"
 
 namespace lpf {
@@ -73,6 +75,16 @@ AnalysisResult join(Parts parts) {
     return all;
 }
 
+/// Of the points in the box; those on each other lie in the same tile.
+std::size_t count_duplicates(const Points& points, const Box& box, const Execution& execution) {
+    const auto flags = find_duplicates(points, {.threads = 1, .stop = execution.stop});
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < flags.size(); ++i) {
+        count += flags[i] && box.holds(points.col(static_cast<Eigen::Index>(i)));
+    }
+    return count;
+}
+
 /// A cloud that is denoised tile by tile; one method for each step.
 class TiledDenoiser {
 public:
@@ -85,8 +97,7 @@ public:
           tiles_(source, partition_, reach_of_fields(params.analysis), execution),
           excerpt_(make_excerpt(source,
                                 Partition(sketch_, static_cast<double>(tiling.patch_points)),
-                                tiling.patches, reach_of_fields(params.analysis), execution)),
-          moves_(source.size(), Eigen::Vector3f::Zero()) {}
+                                tiling.patches, reach_of_fields(params.analysis), execution)) {}
 
     TiledDenoising run(const Execution& execution) {
         std::vector<double> rms_moves;
@@ -97,7 +108,8 @@ public:
             Parts parts(tiles_.size());
             rms_moves.push_back(move_all(parts, part_of(outer, kShareOfLearning, 1.0)));
             if (!goes_on(params_, rms_moves)) {
-                return {std::move(moves_), std::move(rms_moves), join(std::move(parts))};
+                return {std::move(moves_), std::move(rms_moves), join(std::move(parts)),
+                        duplicates_};
             }
             prepare_next(*params_.analysis.initial_dictionary, params_);
         }
@@ -161,11 +173,12 @@ private:
 
     /// Moves the points that lie in a tile. @returns the LPFs there
     AnalysisResult move_tile(std::size_t tile, std::vector<Eigen::Vector3f>& moves, double& squares,
-                             const Execution& execution) const {
+                             const Execution& execution) {
         const Box& box = partition_.boxes()[tile];
         const std::span<const std::uint32_t> indices = tiles_.points(tile);
         Points original;
         source_.read(indices, original);
+        if (moves_.empty()) duplicates_ += count_duplicates(original, box, execution);
         const auto move_own = [&](const std::vector<std::uint32_t>& order, const Moves& found) {
             const double step = step_length(params_);
             for (std::size_t i = 0; i < order.size(); ++i) {
@@ -188,7 +201,8 @@ private:
     Partition partition_;
     Tiling tiles_;
     Excerpt excerpt_;
-    std::vector<Eigen::Vector3f> moves_;
+    std::vector<Eigen::Vector3f> moves_;  // so far; empty in the first iteration
+    std::atomic<std::size_t> duplicates_{0};
 };
 
 }  // namespace

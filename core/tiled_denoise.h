@@ -23,6 +23,7 @@ struct TiledDenoising {
     /// Of the last outer iteration, tile by tile. Energies are means over the LPFs of all tiles,
     /// so that those near borders count more than once.
     AnalysisResult analysis;
+    std::size_t duplicates = 0;  ///< points that repeat the exact position of an earlier one
 };
 
 /// As `denoise`, for clouds of which a copy is too much: one dictionary is learned on patches all

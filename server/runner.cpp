@@ -4,7 +4,6 @@
 
 #include "api/dictionary_document.h"
 #include "api/report.h"
-#include "core/shape/outliers.h"
 #include "core/tiled_denoise.h"
 #include "server/computation.h"
 #include "server/phases.h"
@@ -97,20 +96,17 @@ JobOutcome Runner::run(RunningJob& job, const ShapeInfo& shape, const PlyPoints&
     const StatusInfo asked = job.info();
     PhaseTimes times;
 
-    job.enter_phase("prepare", 0);
+    job.enter_phase("measure", 0);
     pass_on_warnings(job, shape.warnings);
     Report report = start_report(asked, shape, points.size(), options_.version, options_.threads);
-    report.duplicates = count_duplicates(points, execution(job, 0, kPrepared));
-    tell_duplicates(report.duplicates, DuplicatePolicy::Keep, job);
-    times.end_of("prepare");
-
-    job.enter_phase("measure", kPrepared);
-    report.measurements = measure(points, execution(job, kPrepared, kMeasured));
+    report.measurements = measure(points, execution(job, 0, kMeasured));
     const ResolvedParameters parameters = resolve(job, {}, report.measurements);
     times.end_of("measure");
 
     TiledDenoising result =
         denoise_tiles(points, parameters.denoise, execution(job, kMeasured, kComputed));
+    report.duplicates = result.duplicates;
+    tell_duplicates(report.duplicates, DuplicatePolicy::Keep, job);
     times.end_of("compute");
 
     job.enter_phase("encode", kComputed);

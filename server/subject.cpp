@@ -45,8 +45,7 @@ Subject streamed_subject(const PlyPoints& points, const DecodeLimits& limits,
 }
 
 double subject_bytes(const Question& question, const MappedFile& file, const Limits& limits) {
-    const bool streamed =
-        streamed_points(question.task, question.inputs, file, limits).has_value();
+    const bool streamed = streamed_points(question.task, question.inputs, file, limits).has_value();
     return streamed ? kLookBytes : decoding_bytes(file.bytes(), limits);
 }
 

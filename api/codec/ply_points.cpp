@@ -52,8 +52,7 @@ void append(std::span<const std::byte> bytes, std::string& out) {
 }  // namespace
 
 std::optional<PlyPoints> PlyPoints::open(std::span<const std::byte> file,
-                                         const DecodeLimits& limits,
-                                         std::function<void()> let_go) {
+                                         const DecodeLimits& limits, std::function<void()> let_go) {
     if (sniff(file) != FileFormat::PlyBinary) return std::nullopt;
     PlyPoints points;
     points.file_ = file;
@@ -82,9 +81,8 @@ Eigen::Vector3d PlyPoints::position(std::size_t i) const {
     Eigen::Vector3d position;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const Coordinate& c = coordinates_[axis];
-        position[static_cast<Eigen::Index>(axis)] = c.is_double
-                                                        ? read_value<double>(from + c.offset)
-                                                        : read_value<float>(from + c.offset);
+        position[static_cast<Eigen::Index>(axis)] =
+            c.is_double ? read_value<double>(from + c.offset) : read_value<float>(from + c.offset);
     }
     return position;
 }
@@ -95,8 +93,8 @@ Eigen::Vector3d PlyPoints::put(const Eigen::Vector3d& position, std::span<std::b
         const Coordinate& c = coordinates_[axis];
         const auto at = static_cast<Eigen::Index>(axis);
         std::byte* const to = row.data() + c.offset;
-        stored[at] = c.is_double ? put_value<double>(position[at], to)
-                                 : put_value<float>(position[at], to);
+        stored[at] =
+            c.is_double ? put_value<double>(position[at], to) : put_value<float>(position[at], to);
     }
     return stored;
 }
@@ -135,9 +133,9 @@ WrittenPoints write_moved(const PlyPoints& points, std::span<const Eigen::Vector
         if (!before.allFinite()) return;
         const std::span<const std::byte> row = points.row(i);
         append(row, piece);
-        const Eigen::Vector3d now = points.put(
-            before + moves[i].cast<double>(),
-            std::as_writable_bytes(std::span(piece).last(row.size())));
+        const Eigen::Vector3d now =
+            points.put(before + moves[i].cast<double>(),
+                       std::as_writable_bytes(std::span(piece).last(row.size())));
         if (written.points++ == 0) written.minimum = written.maximum = now;
         written.minimum = written.minimum.cwiseMin(now);
         written.maximum = written.maximum.cwiseMax(now);

@@ -43,10 +43,12 @@ constexpr double kFewestForTwo = 50;  // of fewer points, chance makes two group
 constexpr double kLargestBall = 0.25;
 constexpr std::size_t kMostInBall = 3000;
 
-/// A cloud that is not in memory is measured in so many boxes of about so many points each, first
-/// without what lies around them, then with all within so many radii and sigma that show.
+/// A cloud that is not in memory is measured in so many boxes of about so many points each, with
+/// all around them within so many radii and sigma, which a look at a few larger ones tells.
 constexpr std::size_t kBoxes = 256;
 constexpr double kPointsInBox = 512;
+constexpr std::size_t kRoughBoxes = 16;
+constexpr double kPointsInRoughBox = 8192;
 constexpr double kRadiiAround = 1.5;
 constexpr double kSigmasAround = 8.0;
 
@@ -298,14 +300,15 @@ Measurements measure(const Points& points, const Execution& execution) {
 
 Measurements measure(const PointSource& source, const Execution& execution) {
     const Sketch sketch = make_sketch(source, execution);
-    const Partition partition(sketch, kPointsInBox);
-    const auto measure_with = [&](double around) {
-        const Excerpt excerpt = make_excerpt(source, partition, kBoxes, around, execution);
+    const auto measure_in = [&](std::size_t boxes, double points, double around) {
+        const Partition partition(sketch, points);
+        const Excerpt excerpt = make_excerpt(source, partition, boxes, around, execution);
         return measure(source, excerpt, execution);
     };
-    const Measurements rough = measure_with(0.0);
-    Measurements result =
-        measure_with(std::max(kRadiiAround * rough.density_radius, kSigmasAround * rough.noise));
+    const Measurements rough = measure_in(kRoughBoxes, kPointsInRoughBox, 0.0);
+    const double around =
+        std::max(kRadiiAround * rough.density_radius, kSigmasAround * rough.noise);
+    Measurements result = measure_in(kBoxes, kPointsInBox, around);
     result.points = sketch.of;
     result.diagonal = (sketch.high - sketch.low).norm();
     return result;

@@ -2,20 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
 #include <cmath>
 #include <numeric>
 #include <span>
 
 #include "core/shape/spatial_index.h"
-#include "core/shape/tiling.h"
 
 namespace lpf {
 namespace {
-
-/// Points that are looked at together; about.
-constexpr double kPointsOfPart = 500'000;
 
 constexpr std::size_t kNeighbours = 8;
 constexpr std::size_t kFewestPoints = 32;  // below, a median of all says nothing
@@ -164,21 +159,6 @@ std::vector<std::uint8_t> find_duplicates(const Points& points, const Execution&
                                  repeated);
                  });
     return repeated;
-}
-
-std::size_t count_duplicates(const PointSource& source, const Execution& execution) {
-    const Partition partition(make_sketch(source, part_of(execution, 0.0, 0.1)), kPointsOfPart);
-    const Tiling parts(source, partition, 0.0, part_of(execution, 0.1, 0.3));
-    std::atomic<std::size_t> found{0};
-    parallel_for(part_of(execution, 0.3, 1.0), "duplicates", "parts", parts.size(), 1,
-                 [&](std::size_t part, std::size_t, std::size_t) {
-                     Points points;
-                     source.read(parts.points(part), points);
-                     source.let_go();
-                     const auto flags = find_duplicates(points, {.stop = execution.stop});
-                     found += static_cast<std::size_t>(std::ranges::count(flags, 1));
-                 });
-    return found;
 }
 
 }  // namespace lpf

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "core/base/parallel.h"
-#include "core/shape/point_source.h"
+#include "core/shape/point_cloud.h"
 
 namespace lpf {
 
@@ -19,8 +18,5 @@ namespace lpf {
 /// Marks every point that repeats the exact position of an earlier one.
 [[nodiscard]] std::vector<std::uint8_t> find_duplicates(const Points& points,
                                                         const Execution& execution = {});
-
-/// How many find_duplicates would mark, of the points that are finite; part by part.
-[[nodiscard]] std::size_t count_duplicates(const PointSource& source, const Execution& execution);
 
 }  // namespace lpf

@@ -143,6 +143,15 @@ TEST(TiledDenoise, PointsThatAreNotFiniteStay) {
     EXPECT_EQ(std::vector(tiled.moves.begin(), tiled.moves.end() - 1), clean.moves);
 }
 
+TEST(TiledDenoise, CountsDuplicatesOnce) {
+    Scan scan("cube", 20'000);
+    EXPECT_EQ(scan.tiled().duplicates, 0U);
+    for (Eigen::Index i = 0; i < 100; ++i) {
+        scan.shape.points.col(19'000 + i) = scan.shape.points.col(150 * i);
+    }
+    EXPECT_EQ(scan.tiled().duplicates, 100U);
+}
+
 TEST(TiledDenoise, AGivenDictionaryIsKept) {
     Scan scan("cube", 20'000);
     scan.params.analysis.initial_dictionary =

@@ -38,8 +38,7 @@ protected:
         shape.format = "ply";
         shape.sha256 = blobs_.put(square_);
         shape.points = kPoints - 1;
-        shape.bounds =
-            bounds_of(decode(std::as_bytes(std::span(square_))).shape.cloud.points);
+        shape.bounds = bounds_of(decode(std::as_bytes(std::span(square_))).shape.cloud.points);
         shape.warnings = {{"non-finite-points-dropped", "1 point"}};
         StatusInfo info;
         info.job_id = new_id();

@@ -34,16 +34,15 @@ Document numbered(Eigen::Index n, bool doubles = false) {
 
 std::string file_of(const Document& document, FileFormat format = FileFormat::PlyBinary) {
     std::vector<Warning> lost;
-    return encode_ply(document,
-                      {.format = format, .double_positions = document.double_positions}, lost);
+    return encode_ply(document, {.format = format, .double_positions = document.double_positions},
+                      lost);
 }
 
 std::string moved(const PlyPoints& points, const std::vector<Eigen::Vector3f>& moves,
                   std::uint64_t finite, WrittenPoints& written) {
     std::string out;
-    written = write_moved(
-        points, moves, finite, "made by a test",
-        [&](std::string_view piece) { out += piece; }, {});
+    written = write_moved(points, moves, finite, "made by a test",
+                          [&](std::string_view piece) { out += piece; }, {});
     return out;
 }
 
@@ -64,9 +63,9 @@ TEST_P(PlyPointsOf, AreThoseThatDecodingFinds) {
     points.read(some, run);
     ASSERT_EQ(run.cols(), 3);
     for (Eigen::Index i = 0; i < 3; ++i) {
-        EXPECT_EQ(Eigen::Vector3d(run.col(i)),
-                  Eigen::Vector3d(
-                      decoded.shape.cloud.points.col(some[static_cast<std::size_t>(i)])));
+        EXPECT_EQ(
+            Eigen::Vector3d(run.col(i)),
+            Eigen::Vector3d(decoded.shape.cloud.points.col(some[static_cast<std::size_t>(i)])));
     }
 }
 
@@ -132,7 +131,8 @@ TEST(PlyPoints, OtherFilesAreNotOpened) {
     EXPECT_FALSE(PlyPoints::open(bytes_of(file), {}));
     const std::string integers =
         "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty int x\n"
-        "property int y\nproperty int z\nend_header\n" + std::string(12, '\1');
+        "property int y\nproperty int z\nend_header\n" +
+        std::string(12, '\1');
     EXPECT_FALSE(PlyPoints::open(bytes_of(integers), {}));
     EXPECT_FALSE(PlyPoints::open(bytes_of("DRACO..."), {}));
 }
@@ -141,7 +141,8 @@ TEST(PlyPoints, AnEmptyElementOfFacesIsNoFace) {
     const std::string file =
         "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\n"
         "property float y\nproperty float z\nelement face 0\n"
-        "property list uchar int vertex_indices\nend_header\n" + std::string(12, '\0');
+        "property list uchar int vertex_indices\nend_header\n" +
+        std::string(12, '\0');
     const auto points = PlyPoints::open(bytes_of(file), {});
     ASSERT_TRUE(points);
     EXPECT_EQ(points->position(0), Eigen::Vector3d(0, 0, 0));

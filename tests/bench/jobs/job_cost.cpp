@@ -77,6 +77,8 @@ Points computed(const Options& options, const Shape& shape, const Execution& exe
         work.fields = analyze(shape, kPaperTiming, execution).frames.size();
         return shape.cloud.points;
     }
+    meter.begin("duplicates");
+    (void)find_duplicates(shape.cloud.points, {.threads = options.threads});
     meter.begin("measure");
     const Measurements measurements = measure(shape.cloud.points, execution);
     const Task task = options.task == "resample" ? Task::Resample : Task::Denoise;
@@ -97,8 +99,6 @@ std::optional<PlyPoints> streamed(const Options& options, const server::MappedFi
 /// What the server does with a file that it does not hold.
 Work run_streamed(const Options& options, const PlyPoints& points, server::FileBlobStore& blobs,
                   const Execution& execution, CostMeter& meter) {
-    meter.begin("prepare");
-    (void)count_duplicates(points, {.threads = options.threads});
     meter.begin("measure");
     const Measurements measurements = measure(points, {.threads = options.threads});
     const ResolvedParameters parameters = resolve_parameters(Task::Denoise, {}, measurements, {});

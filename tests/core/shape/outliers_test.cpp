@@ -105,18 +105,6 @@ TEST_P(OutliersOn, DuplicatesAgreeWithBruteForce) {
 INSTANTIATE_TEST_SUITE_P(Clouds, OutliersOn, testing::ValuesIn(test::awkward_clouds()),
                          test::CloudName());
 
-TEST_P(OutliersOn, DuplicatesAreCountedPartByPart) {
-    const auto flags = find_duplicates(GetParam().points);
-    EXPECT_EQ(count_duplicates(PointsInMemory(GetParam().points), {.threads = 2}),
-              static_cast<std::size_t>(std::ranges::count(flags, 1)));
-}
-
-TEST(Duplicates, AreCountedAcrossManyParts) {
-    Points points = test::random_box(1'200'000, 3);
-    for (Eigen::Index i = 0; i < 1000; ++i) points.col(1'000'000 + i) = points.col(500 * i);
-    EXPECT_EQ(count_duplicates(PointsInMemory(points), {.threads = 2}), 1000U);
-}
-
 TEST(Duplicates, MinusZeroEqualsZero) {
     Points points(3, 3);
     points << 0.0, -0.0, 0.0, 1, 1, 1, -0.0, 0.0, 1e-300;
