@@ -50,7 +50,7 @@ constexpr double kPointsInBox = 512;
 constexpr std::size_t kRoughBoxes = 16;
 constexpr double kPointsInRoughBox = 8192;
 constexpr double kRadiiAround = 1.5;
-constexpr double kSigmasAround = 8.0;
+constexpr double kSigmasAround = 6.0;
 
 double quantile(std::vector<double>& values, double share) {
     if (values.empty()) return 0.0;
