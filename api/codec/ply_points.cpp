@@ -12,7 +12,8 @@
 namespace lpf {
 namespace {
 
-constexpr std::size_t kBytesOfPiece = 1U << 20U;  // written at a time
+constexpr std::size_t kBytesOfPiece = 1U << 20U;    // written at a time
+constexpr std::size_t kBytesInMemory = 64U << 20U;  // of the file, before they are let go of
 
 bool has_rows_of_one_length(const PlyElement& element) {
     return std::ranges::none_of(element.properties, &PlyProperty::is_list);
@@ -107,7 +108,14 @@ void PlyPoints::read(std::size_t begin, Points& points) const {
 
 void PlyPoints::read(std::span<const std::uint32_t> indices, Points& points) const {
     points.resize(3, static_cast<Eigen::Index>(indices.size()));
+    const std::size_t rows = std::max<std::size_t>(1, kBytesInMemory / row_bytes_);
+    std::size_t next = rows;
     for (std::size_t i = 0; i < indices.size(); ++i) {
+        // The points may lie all over the file.
+        if (indices[i] >= next) {
+            let_go();
+            next = indices[i] + rows;
+        }
         points.col(static_cast<Eigen::Index>(i)) = position(indices[i]);
     }
 }
