@@ -31,8 +31,8 @@ void for_each_point(const PointSource& source, const Execution& execution, const
                 if (place.allFinite()) visit(part, first + static_cast<std::size_t>(i), place);
             }
         }
+        source.let_go();
     });
-    source.let_go();
 }
 
 std::vector<std::uint32_t> joined(const std::vector<std::vector<std::uint32_t>>& parts) {

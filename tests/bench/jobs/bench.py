@@ -12,6 +12,7 @@ measure what else the machine does. Builds are run in turns.
 import argparse
 import json
 import resource
+import shutil
 import subprocess
 import sys
 import time
@@ -30,7 +31,11 @@ CASES = {
                  "resample 80 000 points to as many"),
     "large": ("curvenet", 15_000_000, 0.02, [], "denoise, 15 million points"),
     "large-alone": ("curvenet", 15_000_000, 0.02, ["--threads", "1"], "the same on one thread"),
+    "large-resample": ("curvenet", 15_000_000, 0.02, ["--task", "resample"],
+                       "resample 15 million points to as many"),
+    "huge": ("curvenet", 100_000_000, 0.01, [], "denoise, 100 million points"),
 }
+MOST_SIMULATED = 20_000_000
 USUAL = ["net", "net-alone", "ascii", "draco", "cube", "paper", "resample"]
 FORMATS = {"ascii": "ply-ascii", "draco": "drc"}
 AROUND = ["receive", "inspect", "decode", "write", "store"]  # not the method
@@ -39,14 +44,32 @@ RADIUS_OF_PCL = 0.3972  # best of the settings tried in docs/peers.md
 ORDER_OF_PCL = 2
 
 
+def simulate(binaries, shape, points, noise, path):
+    """A scan; of more points than lpf-scan makes, several scans of the shape, one behind the other."""
+    parts = -(-points // MOST_SIMULATED)
+    part = path.with_suffix(".part")
+    with path.open("wb") as out:
+        for seed in range(1, parts + 1):
+            subprocess.run([binaries / "lpf-scan", "simulate", "--shape", shape, "--points",
+                            str(points // parts), "--noise", str(noise), "--seed", str(seed),
+                            "-o", part], check=True, stdout=subprocess.DEVNULL)
+            with part.open("rb") as rows:
+                head = b""
+                while not head.endswith(b"end_header\n"):
+                    head += rows.readline()
+                if seed == 1:
+                    out.write(head.replace(f"vertex {points // parts}".encode(),
+                                           f"vertex {points}".encode()))
+                shutil.copyfileobj(rows, out, 1 << 24)
+    part.unlink()
+
+
 def scan_of(case, binaries, folder):
     """The simulated scan of a case, made if it is not there."""
     shape, points, noise = CASES[case][:3]
     path = folder / f"{shape}-{points}-{noise}.ply"
     if not path.exists():
-        subprocess.run([binaries / "lpf-scan", "simulate", "--shape", shape, "--points",
-                        str(points), "--noise", str(noise), "-o", path],
-                       check=True, stdout=subprocess.DEVNULL)
+        simulate(binaries, shape, points, noise, path)
     if case not in FORMATS:
         return path
     # The program itself turns it into the format that the case reads and writes.
