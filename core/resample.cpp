@@ -1,52 +1,14 @@
 #include "core/resample.h"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
 #include <utility>
 
 #include "core/base/error.h"
-#include "core/consensus.h"
+#include "core/consolidation.h"
 #include "core/field_set.h"
-#include "core/proposals.h"
 #include "core/shape/spatial_index.h"
 
 namespace lpf {
 namespace {
-
-constexpr double kCountTolerance = 0.02;
-constexpr int kMostSearchRounds = 8;
-
-/// Spacing first, then count: the number of points falls with the square of the spacing on a
-/// surface, linearly on a curve; the exponent is taken from the last two tries.
-class SpacingSearch {
-public:
-    SpacingSearch(double first, std::size_t wanted)
-        : spacing_(first), wanted_(static_cast<double>(wanted)) {}
-
-    [[nodiscard]] double spacing() const { return spacing_; }
-
-    /// @returns whether `count` points at the current spacing are near enough to those wanted
-    bool accepts(std::size_t count) {
-        const double found = std::max<double>(1, static_cast<double>(count));
-        if (std::abs(found - wanted_) <= kCountTolerance / 2 * wanted_) return true;
-        if (last_count_ > 0 && found != last_count_) {
-            exponent_ = std::clamp(
-                std::log(found / last_count_) / std::log(last_spacing_ / spacing_), 0.7, 3.0);
-        }
-        last_spacing_ = spacing_;
-        last_count_ = found;
-        spacing_ *= std::pow(found / wanted_, 1 / exponent_);
-        return false;
-    }
-
-private:
-    double spacing_;
-    double wanted_;
-    double exponent_ = 2.0;
-    double last_spacing_ = 0.0;
-    double last_count_ = 0.0;
-};
 
 std::vector<std::uint32_t> nearest_sources(const Points& input, const Points& points,
                                            const Execution& execution) {
@@ -74,17 +36,6 @@ void validate(const ResampleParams& params) {
     }
 }
 
-/// First guess of tau_p for a number of points, from the area that the disks of all LPFs suggest:
-/// seeds are a packing themselves.
-double guess_spacing(const FieldSet& fields, const AnalysisParams& params, std::size_t wanted) {
-    const double seeds_apart = std::max(params.seed_spacing, 0.05);
-    double area = 0.0;
-    for (const Frame& frame : fields.frames) {
-        area += seeds_apart * seeds_apart * frame.radius * frame.radius;
-    }
-    return std::sqrt(area / static_cast<double>(wanted));
-}
-
 }  // namespace
 
 ResampleResult resample(const Shape& shape, const ResampleParams& params,
@@ -100,30 +51,17 @@ ResampleResult resample(const Shape& shape, const ResampleParams& params,
     fields.optimise_poses(params.analysis.pose_iterations, part_of(rest, 0.02, 0.1));
     AnalysisResult analysis = analyze(fields, params.analysis, part_of(rest, 0.1, 0.5));
 
-    const bool by_count = params.target_points > 0;
-    SpacingSearch search(by_count ? guess_spacing(fields, params.analysis, params.target_points)
-                                  : params.target_spacing,
-                         params.target_points);
-    Candidates candidates;
-    Candidates found;
-    double spacing = search.spacing();
-    const int rounds = by_count ? kMostSearchRounds : 1;
-    for (int round = 0; round < rounds; ++round) {
-        const double low = 0.5 + 0.4 * round / rounds;
-        const double high = 0.5 + 0.4 * (round + 1) / rounds;
-        spacing = search.spacing();
-        // A finer lattice of places makes a denser packing. After the second try of a search the
-        // places stay, so that the number of points changes with the spacing alone.
-        if (round < 2) {
-            candidates =
-                propose(fields, analysis, params, spacing, part_of(rest, low, (low + high) / 2));
-        }
-        found = find_consensus(candidates, spacing, part_of(rest, (low + high) / 2, high));
-        if (by_count && search.accepts(found.size())) break;
-    }
+    Consolidation consolidation(fields, analysis, params);
+    const Execution last = part_of(rest, 0.5, 0.9);
+    Consolidation::Found found = params.target_points > 0
+                                     ? consolidation.with_count(last)
+                                     : consolidation.with_spacing(params.target_spacing, last);
 
-    ResampleResult result{
-        std::move(found.points), {}, std::move(found.field), spacing, std::move(analysis)};
+    ResampleResult result{std::move(found.points.points),
+                          {},
+                          std::move(found.points.field),
+                          found.spacing,
+                          std::move(analysis)};
     result.source = nearest_sources(shape.cloud.points, result.points, part_of(rest, 0.9, 1.0));
     return result;
 }
