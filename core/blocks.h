@@ -18,8 +18,8 @@ struct Block {
     std::vector<std::uint32_t> fields;
 };
 
-/// Divides the cells into boxes of about as many LPFs each, so that the candidates of one box fit in
-/// little memory. LPFs at borders belong to several.
+/// Divides the cells into boxes of about as many LPFs each, so that the candidates of one box fit
+/// in little memory. LPFs at borders belong to several.
 /// @param margin around a box within which its candidates may lie [input length]
 /// @param most LPFs of a block, if cells are small enough
 [[nodiscard]] std::vector<Block> divide(const std::vector<Frame>& frames, const CellLattice& cells,

@@ -34,23 +34,17 @@ struct CellLattice {
 
     [[nodiscard]] Cell cell_of(const Eigen::Vector3d& point) const {
         constexpr auto kEnd = static_cast<double>(kLast);
-        return ((point - corner) / side)
-            .array()
-            .floor()
-            .max(-kEnd)
-            .min(kEnd)
-            .cast<std::int64_t>();
+        return ((point - corner) / side).array().floor().max(-kEnd).min(kEnd).cast<std::int64_t>();
     }
 
     /// Where the cells lie [input length].
     [[nodiscard]] Eigen::AlignedBox3d space_of(const CellBox& cells) const {
-        return {corner + side * cells.low.cast<double>(), corner + side * cells.high.cast<double>()};
+        return {corner + side * cells.low.cast<double>(),
+                corner + side * cells.high.cast<double>()};
     }
 
     /// All cells.
-    static CellBox everything() {
-        return {Cell::Constant(-kLast), Cell::Constant(kLast + 1)};
-    }
+    static CellBox everything() { return {Cell::Constant(-kLast), Cell::Constant(kLast + 1)}; }
 };
 
 /// A box that reaches further by `margin` on all sides [input length].

@@ -68,8 +68,8 @@ Consensus Consolidation::pass(double spacing, const Execution& execution) const 
     const std::vector<Block> blocks = divide(fields_.frames, consensus.cells(), spacing, most);
     for (std::size_t b = 0; b < blocks.size(); ++b) {
         const auto count = static_cast<double>(blocks.size());
-        const Execution part = part_of(execution, static_cast<double>(b) / count,
-                                       static_cast<double>(b + 1) / count);
+        const Execution part =
+            part_of(execution, static_cast<double>(b) / count, static_cast<double>(b + 1) / count);
         const Eigen::AlignedBox3d space = consensus.cells().space_of(blocks[b].box);
         const Candidates candidates = proposer_->propose(
             blocks[b].fields, widened(space, 1.01 * spacing), part_of(part, 0.0, 0.7));

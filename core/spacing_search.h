@@ -5,8 +5,9 @@
 
 namespace lpf {
 
-/// Finds the tau_p that gives a number of points, by trying. Spacing first, then count: the number of points falls with the square of the spacing on a
-/// surface, linearly on a curve; the exponent is taken from the last two tries.
+/// Finds the tau_p that gives a number of points, by trying. Spacing first, then count: the number
+/// of points falls with the square of the spacing on a surface, linearly on a curve; the exponent
+/// is taken from the last two tries.
 class SpacingSearch {
 public:
     SpacingSearch(double first, double wanted) : spacing_(first), wanted_(wanted) {}

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/field/piece.h"
@@ -22,20 +22,13 @@ public:
     [[nodiscard]] bool covers(const Eigen::Vector2f& place, const Eigen::Vector3f& on_piece) const;
 
 private:
-    struct Point {
-        Eigen::Vector2f in_plane;
-        Eigen::Vector3f in_space;
-    };
-
     [[nodiscard]] int cell_of(float coordinate) const;
-    template <typename Visit>
-    bool for_each_near(const Eigen::Vector2f& place, int reach, const Visit& visit) const;
-    [[nodiscard]] bool is_surrounded(const Eigen::Vector2f& place) const;
 
     float distance_;
     int side_ = 1;
-    std::vector<std::size_t> first_;  // of each cell, into points_
-    std::vector<Point> points_;       // cell by cell
+    std::vector<std::uint32_t> first_;       // of each cell, into the points
+    std::vector<float> x_, y_;               // of the points in the plane, cell by cell
+    std::vector<float> at_x_, at_y_, at_z_;  // and in space
 };
 
 }  // namespace lpf
