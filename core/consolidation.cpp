@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "core/blocks.h"
 #include "core/count_sample.h"
@@ -62,8 +63,14 @@ bool Consolidation::is_small() const {
     return proposer_->mean_places() * static_cast<double>(fields_.size()) <= kCandidatesOfBlock;
 }
 
+/// Its cells lie around the middle of the LPFs, wherever a stray point may be.
+Consensus Consolidation::empty_consensus(double spacing) const {
+    return {fields_.frames[fields_.size() / 2].centre, spacing};
+}
+
+/// All LPFs, block by block.
 Consensus Consolidation::pass(double spacing, const Execution& execution) const {
-    Consensus consensus(fields_.frames[fields_.size() / 2].centre, spacing);
+    Consensus consensus = empty_consensus(spacing);
     const auto most = static_cast<std::size_t>(kCandidatesOfBlock / proposer_->mean_places());
     const std::vector<Block> blocks = divide(fields_.frames, consensus.cells(), spacing, most);
     for (std::size_t b = 0; b < blocks.size(); ++b) {
@@ -80,7 +87,7 @@ Consensus Consolidation::pass(double spacing, const Execution& execution) const 
 
 Consolidation::Found Consolidation::with_spacing(double spacing, const Execution& execution) {
     place(spacing);
-    return {pass(spacing, execution).take(), spacing};
+    return {pass(spacing, execution), spacing};
 }
 
 Consolidation::Found Consolidation::with_count(const Execution& execution) {
@@ -92,18 +99,19 @@ Consolidation::Found Consolidation::search_on_all(const Execution& execution) {
     SpacingSearch search(guess_spacing(), static_cast<double>(params_.target_points));
     Steps steps(execution);
     Candidates candidates;
-    Found found;
-    for (int round = 0; round < kMostSearchRounds; ++round) {
-        found.spacing = search.spacing();
+    for (int round = 0;; ++round) {
+        const double spacing = search.spacing();
         if (round < kTriesOfPlaces) {
-            place(found.spacing);
+            place(spacing);
             candidates = all_candidates(steps.next(0.4));
         }
-        found.points = find_consensus(candidates, found.spacing, steps.next(0.4));
-        const auto count = static_cast<double>(found.points.size());
-        if (search.accepts(count, kCountTolerance / 2)) break;
+        Consensus consensus = empty_consensus(spacing);
+        consensus.settle(candidates, CellLattice::everything(), steps.next(0.4));
+        const auto count = static_cast<double>(consensus.size());
+        if (search.accepts(count, kCountTolerance / 2) || round + 1 == kMostSearchRounds) {
+            return {std::move(consensus), spacing};
+        }
     }
-    return found;
 }
 
 /// Spacings are tried on a sample; then all LPFs show how far the sample is off.
@@ -128,7 +136,7 @@ Consolidation::Found Consolidation::search_on_sample(const Execution& execution)
         Consensus consensus = pass(spacing, steps.next(0.9));
         const auto count = static_cast<double>(consensus.size());
         if (std::abs(count - wanted) <= kCountTolerance * wanted || passes == kMostPasses) {
-            return {consensus.take(), spacing};
+            return {std::move(consensus), spacing};
         }
         wanted_of_sample *= wanted / std::max(1.0, count);
     }

@@ -12,7 +12,7 @@ namespace lpf {
 class Consolidation {
 public:
     struct Found {
-        Candidates points;
+        Consensus consensus;
         double spacing = 0.0;  ///< tau_p [input length]
     };
 
@@ -31,6 +31,7 @@ private:
     void place(double spacing) { proposer_.emplace(fields_, analysis_, params_, spacing); }
     [[nodiscard]] bool is_small() const;
     [[nodiscard]] Candidates all_candidates(const Execution& execution) const;
+    [[nodiscard]] Consensus empty_consensus(double spacing) const;
     [[nodiscard]] Consensus pass(double spacing, const Execution& execution) const;
     [[nodiscard]] Found search_on_all(const Execution& execution);
     [[nodiscard]] Found search_on_sample(const Execution& execution);

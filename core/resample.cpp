@@ -1,28 +1,15 @@
 #include "core/resample.h"
 
+#include <optional>
 #include <utility>
 
 #include "core/base/error.h"
 #include "core/consolidation.h"
 #include "core/field_set.h"
-#include "core/shape/spatial_index.h"
+#include "core/nearest_sources.h"
 
 namespace lpf {
 namespace {
-
-std::vector<std::uint32_t> nearest_sources(const Points& input, const Points& points,
-                                           const Execution& execution) {
-    const SpatialIndex index(input, execution);
-    std::vector<std::uint32_t> source(static_cast<std::size_t>(points.cols()));
-    parallel_for(execution, "attributes", "points", source.size(), 4096,
-                 [&](std::size_t begin, std::size_t end, std::size_t) {
-                     for (std::size_t i = begin; i < end; ++i) {
-                         source[i] =
-                             index.nearest(points.col(static_cast<Eigen::Index>(i)), 1)[0].index;
-                     }
-                 });
-    return source;
-}
 
 void validate(const ResampleParams& params) {
     validate(params.analysis);
@@ -36,32 +23,49 @@ void validate(const ResampleParams& params) {
     }
 }
 
+/// The analysis and the points that its LPFs agreed on. What the LPFs needed is gone by then.
+struct Resampled {
+    Consolidation::Found found;
+    AnalysisResult analysis;
+};
+
+Resampled consolidate(const Shape& shape, const ResampleParams& params,
+                      const Execution& execution) {
+    FieldSet fields(shape, params.analysis, part_of(execution, 0.0, 0.02));
+    fields.optimise_poses(params.analysis.pose_iterations, part_of(execution, 0.02, 0.1));
+    AnalysisResult analysis = analyze(fields, params.analysis, part_of(execution, 0.1, 0.5));
+    Consolidation consolidation(fields, analysis, params);
+    const Execution rest = part_of(execution, 0.5, 1.0);
+    Consolidation::Found found = params.target_points > 0
+                                     ? consolidation.with_count(rest)
+                                     : consolidation.with_spacing(params.target_spacing, rest);
+    return {std::move(found), std::move(analysis)};
+}
+
 }  // namespace
 
 ResampleResult resample(const Shape& shape, const ResampleParams& params,
                         const Execution& execution) {
     validate(params);
     check_points(shape.cloud.points);
-    Shape smooth{{shape.cloud.points, {}}, shape.triangles};
+    const double denoised = params.denoise ? 0.4 : 0.0;
+    std::optional<Shape> smooth;
     if (params.denoise) {
-        smooth.cloud.points = denoise(shape, *params.denoise, part_of(execution, 0.0, 0.4)).points;
+        smooth.emplace();
+        smooth->triangles = shape.triangles;
+        smooth->cloud.points =
+            denoise(shape, *params.denoise, part_of(execution, 0.0, denoised)).points;
     }
-    const Execution rest = part_of(execution, params.denoise ? 0.4 : 0.0, 1.0);
-    FieldSet fields(smooth, params.analysis, part_of(rest, 0.0, 0.02));
-    fields.optimise_poses(params.analysis.pose_iterations, part_of(rest, 0.02, 0.1));
-    AnalysisResult analysis = analyze(fields, params.analysis, part_of(rest, 0.1, 0.5));
+    const Execution rest = part_of(execution, denoised, 1.0);
+    Resampled done = consolidate(smooth ? *smooth : shape, params, part_of(rest, 0.0, 0.9));
+    smooth.reset();
 
-    Consolidation consolidation(fields, analysis, params);
-    const Execution last = part_of(rest, 0.5, 0.9);
-    Consolidation::Found found = params.target_points > 0
-                                     ? consolidation.with_count(last)
-                                     : consolidation.with_spacing(params.target_spacing, last);
-
-    ResampleResult result{std::move(found.points.points),
+    Candidates points = done.found.consensus.take();
+    ResampleResult result{std::move(points.points),
                           {},
-                          std::move(found.points.field),
-                          found.spacing,
-                          std::move(analysis)};
+                          std::move(points.field),
+                          done.found.spacing,
+                          std::move(done.analysis)};
     result.source = nearest_sources(shape.cloud.points, result.points, part_of(rest, 0.9, 1.0));
     return result;
 }
