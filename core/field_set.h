@@ -43,6 +43,12 @@ public:
     void for_each_probed(std::string_view phase, const Execution& execution, int atoms,
                          const Body& body) const;
 
+    /// For callers that choose the LPFs themselves: what a thread needs, the target area of one,
+    /// the field of one.
+    [[nodiscard]] Worker make_worker(int atoms) const;
+    void gather(std::size_t j, TargetArea& target) const;
+    void probe(std::size_t j, ProbeScratch& scratch, float* field) const;
+
     /// LPFs that are worked on together, `count` of them, freshly probed.
     struct Block {
         std::array<std::size_t, kFieldsOfBlock> number;  ///< of each in the set
@@ -107,13 +113,10 @@ public:
 private:
     void place(const Points& targets, const AnalysisParams& params, const Region& region,
                const Execution& execution);
-    [[nodiscard]] Worker make_worker(int atoms) const;
-    void gather(std::size_t j, TargetArea& target) const;
     void gather_ball(std::size_t j, TargetArea& target) const;
     using Gather = void (FieldSet::*)(std::size_t j, TargetArea& target) const;
     void for_each_gathered(std::string_view phase, const Execution& execution, const Body& body,
                            Gather gather_points) const;
-    void probe(std::size_t j, ProbeScratch& scratch, float* field) const;
 
     Pattern pattern_;
     MeshSamples samples_;  // of a mesh that is probed as one

@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
-#include <numeric>
 #include <optional>
-#include <utility>
 
 #include "core/base/random.h"
+#include "core/support.h"
 
 namespace lpf {
 namespace {
+
+constexpr std::size_t kFieldsPerChunk = 32;
 
 /// The places of one LPF lie this close at least [tau_p]. With all the LPFs that overlap, the
 /// packing is nearly saturated then. A search for a number of points makes do with fewer.
@@ -59,107 +59,14 @@ void shake(std::vector<Eigen::Vector2f>& places, double apart) {
     }
 }
 
-/// Beyond a straight border, the unit vectors to the points near by sum up to this share of their
-/// number or more; among points they cancel out.
-constexpr float kOneSided = 0.75F;
-
-/// A place so near a point needs no others around it [support distances].
-constexpr float kVeryNear = 0.25F;
-
-/// On a slope, the nearest point may be further off than it is in the plane, up to this many times.
-/// What a piece says beyond that, where it bends away from its last points, is no part of the
-/// shape.
-constexpr float kSlope = 1.2F;
-
-/// Whether target points lie around places of the plane: sorted into cells of one support distance.
-class Support {
-public:
-    /// @param target flattened, as the piece says
-    Support(const Piece& piece, const TargetArea& target, float distance) : distance_(distance) {
-        side_ = static_cast<int>(std::min(256.0F, std::ceil(2 * kReach / distance))) + 1;
-        std::vector<int> cell(target.size);
-        first_.assign(static_cast<std::size_t>(side_ * side_) + 2, 0);
-        for (std::size_t i = 0; i < target.size; ++i) {
-            cell[i] = cell_of(target.y[i]) * side_ + cell_of(target.x[i]);
-            ++first_[static_cast<std::size_t>(cell[i]) + 2];
-        }
-        std::partial_sum(first_.begin(), first_.end(), first_.begin());
-        points_.resize(target.size);
-        for (std::size_t i = 0; i < target.size; ++i) {
-            const std::size_t at = first_[static_cast<std::size_t>(cell[i]) + 1]++;
-            points_[at] = {{target.x[i], target.y[i]},
-                           Eigen::Vector3f(target.x[i], target.y[i], target.z[i]) +
-                               piece.mean(target.x[i], target.y[i])};
-        }
-    }
-
-    /// A place is on the shape if a point is very near, or if one is within the distance and points
-    /// within twice of it do not all lie to one side.
-    /// @param on_piece where the piece has the place
-    [[nodiscard]] bool covers(const Eigen::Vector2f& place, const Eigen::Vector3f& on_piece) const {
-        float nearest = std::numeric_limits<float>::infinity();
-        float nearest_in_space = nearest;
-        for_each_near(place, 1, [&](const Eigen::Vector2f& apart, const Eigen::Vector3f& point) {
-            nearest = std::min(nearest, apart.squaredNorm());
-            nearest_in_space = std::min(nearest_in_space, (point - on_piece).squaredNorm());
-        });
-        if (nearest > distance_ * distance_) return false;
-        if (nearest_in_space > kSlope * kSlope * distance_ * distance_) return false;
-        if (nearest <= kVeryNear * kVeryNear * distance_ * distance_) return true;
-        float count = 0;
-        Eigen::Vector2f directions = Eigen::Vector2f::Zero();
-        for_each_near(place, 2, [&](const Eigen::Vector2f& apart, const Eigen::Vector3f&) {
-            const float squared = apart.squaredNorm();
-            if (squared > 4 * distance_ * distance_) return;
-            directions += apart / std::sqrt(std::max(squared, 1e-12F));
-            count += 1;
-        });
-        return directions.norm() < kOneSided * count;
-    }
-
-private:
-    static constexpr float kReach = 2.0F;  // target areas are no wider
-
-    struct Point {
-        Eigen::Vector2f in_plane;
-        Eigen::Vector3f in_space;
-    };
-
-    [[nodiscard]] int cell_of(float coordinate) const {
-        const float cell = std::max(distance_, 2 * kReach / 256.0F);
-        return std::clamp(static_cast<int>((coordinate + kReach) / cell), 0, side_ - 1);
-    }
-
-    /// Visits the points in the cells up to `reach` away from that of the place: from it to each,
-    /// and where that is in space.
-    template <typename Visit>
-    void for_each_near(const Eigen::Vector2f& place, int reach, const Visit& visit) const {
-        const int column = cell_of(place.x());
-        const int row = cell_of(place.y());
-        for (int j = std::max(0, row - reach); j <= std::min(side_ - 1, row + reach); ++j) {
-            const auto begin = static_cast<std::size_t>(j * side_ + std::max(0, column - reach));
-            const auto last =
-                static_cast<std::size_t>(j * side_ + std::min(side_ - 1, column + reach));
-            for (std::size_t i = first_[begin]; i < first_[last + 1]; ++i) {
-                visit(points_[i].in_plane - place, points_[i].in_space);
-            }
-        }
-    }
-
-    float distance_;
-    int side_ = 1;
-    std::vector<std::size_t> first_;  // of each cell, into points_
-    std::vector<Point> points_;       // cell by cell
-};
-
 /// A field that jumps further between neighbouring nodes leaps from one part of the shape to
 /// another; what lies between belongs to neither [steps of the pattern].
 constexpr float kLargestJump = 4.0F;
 
-/// The place, moved by the field there; nothing where the field jumps.
+/// Where a field moves a place of the plane; nothing where the field jumps.
 std::optional<Eigen::Vector3f> displace(const Pattern& pattern, const std::vector<float>& field,
-                                        const Eigen::Vector2f& place) {
-    const Pattern::Stencil stencil = pattern.stencil(place.x(), place.y());
+                                        const Eigen::Vector2f& place,
+                                        const Pattern::Stencil& stencil) {
     const int stride = pattern.padded_size();
     Eigen::Vector3f value(place.x(), place.y(), 0.0F);
     float low = std::numeric_limits<float>::infinity();
@@ -174,99 +81,124 @@ std::optional<Eigen::Vector3f> displace(const Pattern& pattern, const std::vecto
     return value;
 }
 
-/// How far the shape goes on between the points of one target area [radius]: at least the distance
-/// given, more where the points are sparser than elsewhere, never more than half the radius.
-float support_distance(const TargetArea& target, double support, double spacing, double radius) {
-    const double points = std::max(1.0, static_cast<double>(target.size));
-    const double local = std::min(0.5, kSupportSpacings * std::sqrt(std::numbers::pi / points));
-    return static_cast<float>(std::max({support / radius, spacing / 2 / radius, local}));
-}
-
-/// Eq. 7 for one LPF: the places of its pattern, moved by its reconstructed field, on the piece
-/// that it is about.
-void propose(const Frame& frame, const Piece& piece, const Pattern& pattern,
-             const TargetArea& target, const std::vector<float>& field,
-             const std::vector<Eigen::Vector2f>& places, std::optional<float> support,
-             std::vector<Eigen::Vector3d>& proposals) {
-    std::optional<Support> supported;
-    if (support) supported.emplace(piece, target, *support);
-    for (const Eigen::Vector2f& place : places) {
-        const auto p = displace(pattern, field, place);
-        if (!p) continue;
-        Eigen::Vector3f on_piece = *p + piece.shape(p->x(), p->y());
-        if (piece.is_curve()) on_piece.y() -= place.y();
-        if (supported && !supported->covers(p->head<2>(), on_piece)) continue;
-        const Eigen::Vector3f gap(0, 0, piece.half_gap(p->x(), p->y()));
-        proposals.push_back(frame.to_world(on_piece + gap));
-        if (gap.z() > 0) proposals.push_back(frame.to_world(on_piece - gap));
-    }
-}
-
-/// An LPF of too few points knows no field: it proposes the points themselves, so that nothing
-/// sparse is lost.
-void propose_points(const Frame& frame, const TargetArea& target,
-                    std::vector<Eigen::Vector3d>& proposals) {
-    for (std::size_t i = 0; i < target.size; ++i) {
-        proposals.push_back(frame.to_world({target.x[i], target.y[i], target.z[i]}));
-    }
-}
-
-/// LPF by LPF, each from its centre outwards; LPFs are in spatial order, so that the consensus
-/// works on what lies together in memory.
-Candidates collect(std::vector<std::vector<Eigen::Vector3d>> proposals) {
-    std::size_t total = 0;
-    for (const auto& of_field : proposals) total += of_field.size();
-    Candidates candidates{Points(3, static_cast<Eigen::Index>(total)), {}};
-    candidates.field.reserve(total);
-    for (std::size_t j = 0; j < proposals.size(); ++j) {
-        for (const Eigen::Vector3d& point : proposals[j]) {
-            candidates.points.col(static_cast<Eigen::Index>(candidates.size())) = point;
-            candidates.field.push_back(static_cast<std::uint32_t>(j));
-        }
-        std::vector<Eigen::Vector3d>().swap(proposals[j]);
-    }
-    return candidates;
-}
-
 }  // namespace
 
-Candidates propose(const FieldSet& fields, const AnalysisResult& analysis,
-                   const ResampleParams& params, double spacing, const Execution& execution) {
+Proposer::Proposer(const FieldSet& fields, const AnalysisResult& analysis,
+                   const ResampleParams& params, double spacing)
+    : fields_(fields), analysis_(analysis), params_(params), spacing_(spacing) {
     const bool search = params.target_points > 0;
     const double apart = spacing * (search ? kCandidateStepOfSearch : kCandidateStep);
-    std::map<double, std::vector<Eigen::Vector2f>> places;  // by the radius of the LPF
+    const Pattern& pattern = fields.pattern();
     for (const Frame& frame : fields.frames) {
-        const auto [at, is_new] = places.try_emplace(frame.radius);
+        const auto [at, is_new] = places_.try_emplace(frame.radius);
         if (!is_new) continue;
-        at->second = proposal_places(fields.pattern(), frame.radius, apart);
-        if (search) shake(at->second, apart / frame.radius);
+        std::vector<Eigen::Vector2f> places = proposal_places(pattern, frame.radius, apart);
+        if (search) shake(places, apart / frame.radius);
+        for (const Eigen::Vector2f& place : places) {
+            at->second.push_back({place, pattern.stencil(place.x(), place.y())});
+        }
     }
-    std::vector<std::vector<Eigen::Vector3d>> proposals(fields.size());
-    const auto propose_of = [&](std::size_t j, FieldSet::Worker& worker, std::size_t) {
-        const TargetArea& target = worker.probe.target;
-        const Frame& frame = fields.frames[j];
-        if (fields.dimensions[j] == kTooFewPoints) {
-            propose_points(frame, target, proposals[j]);
-            return;
+}
+
+double Proposer::mean_places() const {
+    double sum = 0.0;
+    for (const Frame& frame : fields_.frames) {
+        sum += static_cast<double>(places_.at(frame.radius).size());
+    }
+    return sum / static_cast<double>(fields_.size());
+}
+
+Candidates Proposer::propose(std::span<const std::uint32_t> numbers, const Eigen::AlignedBox3d& box,
+                             const Execution& execution) const {
+    std::vector<Proposals> chunks(chunk_count(numbers.size(), kFieldsPerChunk));
+    parallel_for(execution, "propose", "fields", numbers.size(), kFieldsPerChunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                     FieldSet::Worker worker = fields_.make_worker(0);
+                     for (std::size_t i = begin; i < end; ++i) {
+                         propose(numbers[i], box, worker, chunks[chunk]);
+                     }
+                 });
+    std::vector<std::size_t> first(chunks.size() + 1, 0);
+    for (std::size_t c = 0; c < chunks.size(); ++c) {
+        first[c + 1] = first[c] + chunks[c].field.size();
+    }
+    Candidates all{Points(3, static_cast<Eigen::Index>(first.back())), {}};
+    all.field.resize(first.back());
+    parallel_for(execution, chunks.size(), 1, [&](std::size_t c, std::size_t, std::size_t) {
+        for (std::size_t i = 0; i < chunks[c].field.size(); ++i) {
+            all.points.col(static_cast<Eigen::Index>(first[c] + i)) = chunks[c].points[i];
+            all.field[first[c] + i] = chunks[c].field[i];
         }
-        analysis.dictionary.decode(analysis.codes[j], worker.decoded);
-        for (std::size_t i = 0; i < worker.decoded.size() && params.detail > 0; ++i) {
-            worker.decoded[i] +=
-                static_cast<float>(params.detail) * (worker.field[i] - worker.decoded[i]);
+        chunks[c] = {};
+    });
+    return all;
+}
+
+void Proposer::propose(std::uint32_t j, const Eigen::AlignedBox3d& box, FieldSet::Worker& worker,
+                       Proposals& proposals) const {
+    if (fields_.dimensions[j] == kTooFewPoints) {
+        // It knows no field: it proposes the points themselves, so that nothing sparse is lost.
+        TargetArea& target = worker.probe.target;
+        fields_.gather(j, target);
+        for (std::size_t i = 0; i < target.size; ++i) {
+            const Eigen::Vector3d point =
+                fields_.frames[j].to_world({target.x[i], target.y[i], target.z[i]});
+            if (box.contains(point)) proposals.points.push_back(point);
         }
-        std::optional<float> distance;
-        if (params.support > 0) {
-            distance = support_distance(target, params.support, spacing, frame.radius);
-        }
-        propose(frame, fields.pieces[j], fields.pattern(), target, worker.decoded,
-                places.at(frame.radius), distance, proposals[j]);
-    };
-    if (params.detail > 0) {
-        fields.for_each_probed("propose", execution, 0, propose_of);
     } else {
-        fields.for_each_target("propose", execution, propose_of);
+        reconstruct(j, worker);
+        move_places(j, box, worker, proposals);
     }
-    return collect(std::move(proposals));
+    proposals.field.resize(proposals.points.size(), j);
+}
+
+/// Leaves the field that the points are read from in `worker.decoded`.
+void Proposer::reconstruct(std::uint32_t j, FieldSet::Worker& worker) const {
+    analysis_.dictionary.decode(analysis_.codes[j], worker.decoded);
+    if (params_.detail <= 0) return;
+    fields_.probe(j, worker.probe, worker.field.data());
+    for (std::size_t i = 0; i < worker.decoded.size(); ++i) {
+        worker.decoded[i] +=
+            static_cast<float>(params_.detail) * (worker.field[i] - worker.decoded[i]);
+    }
+}
+
+void Proposer::move_places(std::uint32_t j, const Eigen::AlignedBox3d& box,
+                           FieldSet::Worker& worker, Proposals& proposals) const {
+    const Frame& frame = fields_.frames[j];
+    const Piece& piece = fields_.pieces[j];
+    std::optional<Support> support;
+    const auto is_supported = [&](const Eigen::Vector3f& p, const Eigen::Vector3f& on_piece) {
+        if (params_.support <= 0) return true;
+        if (!support) {
+            fields_.gather(j, worker.probe.target);
+            support.emplace(piece, worker.probe.target,
+                            support_distance(worker.probe.target, frame.radius));
+        }
+        return support->covers(p.head<2>(), on_piece);
+    };
+    for (const Place& place : places_.at(frame.radius)) {
+        const auto p = displace(fields_.pattern(), worker.decoded, place.at, place.stencil);
+        if (!p) continue;
+        Eigen::Vector3f on_piece = *p + piece.shape(p->x(), p->y());
+        if (piece.is_curve()) on_piece.y() -= place.at.y();
+        // Two sheets are proposed as one point each.
+        const Eigen::Vector3f gap(0, 0, piece.half_gap(p->x(), p->y()));
+        const Eigen::Vector3d above = frame.to_world(on_piece + gap);
+        const Eigen::Vector3d below = gap.z() > 0 ? frame.to_world(on_piece - gap) : above;
+        if (!box.contains(above) && !box.contains(below)) continue;
+        if (!is_supported(*p, on_piece)) continue;
+        if (box.contains(above)) proposals.points.push_back(above);
+        if (gap.z() > 0 && box.contains(below)) proposals.points.push_back(below);
+    }
+}
+
+/// How far the shape goes on between the points of one target area [radius]: at least the distance
+/// given, more where the points are sparser than elsewhere, never more than half the radius.
+float Proposer::support_distance(const TargetArea& target, double radius) const {
+    const double points = std::max(1.0, static_cast<double>(target.size));
+    const double local = std::min(0.5, kSupportSpacings * std::sqrt(std::numbers::pi / points));
+    return static_cast<float>(std::max({params_.support / radius, spacing_ / 2 / radius, local}));
 }
 
 }  // namespace lpf

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "core/base/error.h"
@@ -17,6 +18,14 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
+
+Candidates propose_all(const FieldSet& fields, const AnalysisResult& analysis,
+                       const ResampleParams& params, double spacing) {
+    std::vector<std::uint32_t> all(fields.size());
+    std::iota(all.begin(), all.end(), 0U);
+    return Proposer(fields, analysis, params, spacing)
+        .propose(all, CellLattice{}.space_of(CellLattice::everything()), {});
+}
 
 /// LPFs of a curved sheet with a border and a few lonely points, analysed.
 class ProposalsOf : public testing::Test {
@@ -37,7 +46,7 @@ protected:
     }
 
     [[nodiscard]] Candidates proposals(double spacing) const {
-        return propose(*fields, analysis, params, spacing, {});
+        return propose_all(*fields, analysis, params, spacing);
     }
 
     /// What LPF j proposes, in its own frame, in order.
@@ -235,7 +244,7 @@ TEST(Proposals, OfAPieceThatBendsAwayFromItsPointsStayNearThem) {
     bent.coefficients[3] = 4.0F;  // at the rim of the disk four radii above the plane
     bent.reach = 10.0F;
     fields.pieces.assign(fields.size(), bent);
-    const Candidates all = propose(fields, analysis, params, params.target_spacing, {});
+    const Candidates all = propose_all(fields, analysis, params, params.target_spacing);
     ASSERT_GT(all.size(), fields.size());
     EXPECT_LT(all.points.row(2).cwiseAbs().maxCoeff(), 2 * params.support);
 }

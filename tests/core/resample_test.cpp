@@ -112,6 +112,50 @@ TEST_P(ResampleOf, MeetsTheNumberOfPointsAskedForWithinTwoPercent) {
 
 INSTANTIATE_TEST_SUITE_P(Shapes, ResampleOf, testing::Values("plane", "sphere", "cube", "helix"));
 
+/// Enough LPFs for several blocks, and for the spacing to be searched on a sample.
+class LargeResample : public testing::Test {
+protected:
+    LargeResample() {
+        params.analysis.iterations = 1;
+        params.analysis.learning_sample = 500;
+        params.target_points = 60000;
+    }
+
+    const test::TestShape shape =
+        test::make_shape("cube_with_curve", {.points = 40000, .noise = 0.002});
+    ResampleParams params = params_for(0.045);
+};
+
+TEST_F(LargeResample, MeetsTheNumberOfPointsWithinTwoPercent) {
+    const ResampleResult result = resample(cloud_of(shape.points), params, {.threads = 2});
+    ASSERT_GT(result.analysis.frames.size(), 15000U);
+    EXPECT_NEAR(static_cast<double>(result.points.cols()) / 60000, 1, 0.02);
+    EXPECT_GE(test::nearest_neighbour_stats(result.points).min, result.spacing * (1 - 1e-9));
+}
+
+TEST_F(LargeResample, DoesNotDependOnTheNumberOfThreads) {
+    const ResampleResult one = resample(cloud_of(shape.points), params, {.threads = 1});
+    for (const int threads : {2, 5}) {
+        const ResampleResult many = resample(cloud_of(shape.points), params, {.threads = threads});
+        ASSERT_EQ(many.points, one.points);
+        ASSERT_EQ(many.source, one.source);
+        ASSERT_EQ(many.field, one.field);
+    }
+}
+
+TEST(Resample, SurvivesStrayPointsFarAway) {
+    Points points = test::make_sphere({.points = 3000}).points;
+    const Points near = points;
+    points.conservativeResize(3, points.cols() + 2);
+    points.rightCols(2) << 1e12, -1e7, 0.0, 1e7, -1e12, 3.0;
+    ResampleParams params = params_for(0.25);
+    params.target_spacing = 0.05;
+    const ResampleResult result = resample(cloud_of(points), params, {.threads = 2});
+    expect_rows_agree(result, 3002);
+    EXPECT_LT(test::coverage(near, result.points), 1.5 * 0.05);
+    EXPECT_GE(test::nearest_neighbour_stats(result.points).min, 0.05 * (1 - 1e-9));
+}
+
 TEST(Resample, OfAPlaneIsAlmostAsDenseAsCanBe) {
     const Points plane = test::make_plane({.points = 8000}).points;
     ResampleParams params = params_for(0.3);
