@@ -85,13 +85,11 @@ Consensus Consolidation::pass(double spacing, const Execution& execution) const 
     return consensus;
 }
 
-Consolidation::Found Consolidation::with_spacing(double spacing, const Execution& execution) {
+Consolidation::Found Consolidation::find(const Execution& execution) {
+    const bool search = params_.target_points > 0;
+    const double spacing = search ? guess_spacing() : params_.target_spacing;
     place(spacing);
-    return {pass(spacing, execution), spacing};
-}
-
-Consolidation::Found Consolidation::with_count(const Execution& execution) {
-    place(guess_spacing());
+    if (!search) return {pass(spacing, execution), spacing};
     return is_small() ? search_on_all(execution) : search_on_sample(execution);
 }
 

@@ -21,10 +21,9 @@ public:
                   const ResampleParams& params)
         : fields_(fields), analysis_(analysis), params_(params) {}
 
-    [[nodiscard]] Found with_spacing(double spacing, const Execution& execution);
-
-    /// As many points as the parameters want, within 2 % where it can be.
-    [[nodiscard]] Found with_count(const Execution& execution);
+    /// With the spacing that the parameters want, or as many points as they do, within 2 % where
+    /// it can be.
+    [[nodiscard]] Found find(const Execution& execution);
 
 private:
     [[nodiscard]] double guess_spacing() const;

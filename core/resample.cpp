@@ -23,23 +23,11 @@ void validate(const ResampleParams& params) {
     }
 }
 
-/// The analysis and the points that its LPFs agreed on. What the LPFs needed is gone by then.
-struct Resampled {
-    Consolidation::Found found;
-    AnalysisResult analysis;
-};
-
-Resampled consolidate(const Shape& shape, const ResampleParams& params,
-                      const Execution& execution) {
-    FieldSet fields(shape, params.analysis, part_of(execution, 0.0, 0.02));
-    fields.optimise_poses(params.analysis.pose_iterations, part_of(execution, 0.02, 0.1));
-    AnalysisResult analysis = analyze(fields, params.analysis, part_of(execution, 0.1, 0.5));
-    Consolidation consolidation(fields, analysis, params);
-    const Execution rest = part_of(execution, 0.5, 1.0);
-    Consolidation::Found found = params.target_points > 0
-                                     ? consolidation.with_count(rest)
-                                     : consolidation.with_spacing(params.target_spacing, rest);
-    return {std::move(found), std::move(analysis)};
+/// What is left of the shape without its noise; the shape itself where it has none.
+std::optional<Shape> without_noise(const Shape& shape, const ResampleParams& params,
+                                   const Execution& execution) {
+    if (!params.denoise) return std::nullopt;
+    return Shape{{denoise(shape, *params.denoise, execution).points, {}}, shape.triangles};
 }
 
 }  // namespace
@@ -49,23 +37,21 @@ ResampleResult resample(const Shape& shape, const ResampleParams& params,
     validate(params);
     check_points(shape.cloud.points);
     const double denoised = params.denoise ? 0.4 : 0.0;
-    std::optional<Shape> smooth;
-    if (params.denoise) {
-        smooth.emplace();
-        smooth->triangles = shape.triangles;
-        smooth->cloud.points =
-            denoise(shape, *params.denoise, part_of(execution, 0.0, denoised)).points;
-    }
+    std::optional<Shape> smooth = without_noise(shape, params, part_of(execution, 0.0, denoised));
     const Execution rest = part_of(execution, denoised, 1.0);
-    Resampled done = consolidate(smooth ? *smooth : shape, params, part_of(rest, 0.0, 0.9));
-    smooth.reset();
+    std::optional<FieldSet> fields(std::in_place, smooth ? *smooth : shape, params.analysis,
+                                   part_of(rest, 0.0, 0.02));
+    // The LPFs keep points in an order of their own; of the shape they only need the triangles.
+    if (params.analysis.probing != ProbingKind::NearestTriangle) smooth.reset();
+    fields->optimise_poses(params.analysis.pose_iterations, part_of(rest, 0.02, 0.1));
+    AnalysisResult analysis = analyze(*fields, params.analysis, part_of(rest, 0.1, 0.5));
+    Consolidation::Found found =
+        Consolidation(*fields, analysis, params).find(part_of(rest, 0.5, 0.9));
+    fields.reset();
 
-    Candidates points = done.found.consensus.take();
-    ResampleResult result{std::move(points.points),
-                          {},
-                          std::move(points.field),
-                          done.found.spacing,
-                          std::move(done.analysis)};
+    Candidates points = found.consensus.take();
+    ResampleResult result{
+        std::move(points.points), {}, std::move(points.field), found.spacing, std::move(analysis)};
     result.source = nearest_sources(shape.cloud.points, result.points, part_of(rest, 0.9, 1.0));
     return result;
 }
