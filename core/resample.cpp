@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/memory.h"
 #include "core/consolidation.h"
 #include "core/field_set.h"
 #include "core/nearest_sources.h"
@@ -50,6 +51,7 @@ ResampleResult resample(const Shape& shape, const ResampleParams& params,
     fields.reset();
 
     Candidates points = found.consensus.take();
+    return_freed_memory();  // of many small cells
     ResampleResult result{
         std::move(points.points), {}, std::move(points.field), found.spacing, std::move(analysis)};
     result.source = nearest_sources(shape.cloud.points, result.points, part_of(rest, 0.9, 1.0));

@@ -1,6 +1,5 @@
 #include "server/cores.h"
 
-#include <malloc.h>
 #include <sched.h>
 #include <unistd.h>
 
@@ -104,7 +103,5 @@ std::uint64_t usable_memory() {
     const auto size = static_cast<std::uint64_t>(std::max(0L, ::sysconf(_SC_PAGESIZE)));
     return stricter(pages * size, cgroup_memory(kRoot));
 }
-
-void return_freed_memory() { ::malloc_trim(0); }
 
 }  // namespace lpf::server

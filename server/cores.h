@@ -12,9 +12,6 @@ namespace lpf::server {
 /// Memory that this process may use, in bytes: the machine's, or the limit of its container.
 [[nodiscard]] std::uint64_t usable_memory();
 
-/// Gives memory that was freed back to the system, which counts it until then.
-void return_freed_memory();
-
 /// The CPU quota alone, rounded up to whole cores; 0 if there is none.
 /// @param root where the control groups are mounted, /sys/fs/cgroup
 /// @param own  the list of the groups that the process is in; those above them count, too

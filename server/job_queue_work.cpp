@@ -3,7 +3,7 @@
 
 #include "api/memory_need.h"
 #include "api/parameters.h"
-#include "server/cores.h"
+#include "core/base/memory.h"
 #include "server/job_endings.h"
 #include "server/job_queue.h"
 

@@ -58,6 +58,7 @@ JobOutcome Runner::run(RunningJob& job, const MappedFile& file) const {
     job.enter_phase("decode", 0);
     Document document =
         decode(file.bytes(), decode_limits(options_.limits), execution(job, 0, kDecoded));
+    file.let_go(file.bytes().size());
     pass_on_warnings(job, document.warnings);
     Report report = start_report(asked, document, options_.version, options_.threads);
     times.end_of("decode");

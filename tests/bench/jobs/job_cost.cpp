@@ -138,6 +138,7 @@ Work run(const Options& options, CostMeter& meter) {
     }
     meter.begin("decode");
     Document document = decode(file.bytes(), kAnySize, {.threads = options.threads});
+    file.let_go(file.bytes().size());
     Work work{.points = document.shape.cloud.size()};
     document.shape.cloud.points = computed(options, document.shape, execution, work, meter);
     meter.begin("write");
