@@ -28,8 +28,8 @@ constexpr double kPlaceField = 2.5e-6;
 constexpr double kGrowPoint = 1.2e-6;   // pieces of the shape
 constexpr double kTriangleProbe = 1.9;  // of a mesh, for one of points
 constexpr double kGatherPoint = 0.004e-6;
-constexpr double kVote = 0.035e-6;        // two rounds
-constexpr double kOutputPoint = 13.5e-6;  // proposals and consensus of a resampling
+constexpr double kVote = 0.035e-6;      // two rounds
+constexpr double kOutputPoint = 10e-6;  // proposals, consensus and sources of a resampling
 constexpr double kEncodePoint = 0.3e-6;
 constexpr double kEncodePointApart = 1.5e-6;
 constexpr double kWriteByte = 4e-9;
@@ -88,7 +88,7 @@ Seconds method(const Workload& w, const ResolvedParameters& p) {
     sum += analysis(w, p.analysis);
     if (w.task == Task::Analyze) return sum;
     if (p.resample.denoise) sum += denoising(w, *p.resample.denoise);
-    sum.alone += kOutputPoint * w.output_points;
+    sum.shared += kOutputPoint * w.output_points;
     return sum;
 }
 
@@ -124,6 +124,8 @@ constexpr double kPointsAround = 1.3;  // those of a tile with those around it, 
 constexpr double kStreamedPoint = 18;  // moves, and numbers of the points of tiles
 constexpr double kField = 300;
 constexpr double kCandidate = 90;
+constexpr double kBlockOfCandidates = 170e6;  // there are no more at a time
+constexpr double kAgreedPoint = 36;           // in its cell, with its LPF
 constexpr double kJobBytes = 5e6;
 constexpr double kSafety = 1.15;
 
@@ -152,8 +154,9 @@ double method_bytes(const Workload& w, const ResolvedParameters& p) {
     if (w.task == Task::Resample) {
         const double candidates = w.fields * places_of_field(w, p);
         const double noisy = p.resample.denoise ? (kPosition + kBallotPoint) * w.points : 0;
-        bytes += kPosition * w.points + std::max(noisy, kCandidate * candidates) +
-                 2 * kPosition * w.output_points;
+        const double consenting =
+            std::min(kCandidate * candidates, kBlockOfCandidates) + kAgreedPoint * w.output_points;
+        bytes += std::max(noisy, consenting);
     }
     return bytes;
 }
