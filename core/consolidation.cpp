@@ -20,6 +20,9 @@ constexpr int kMostPasses = 4;
 /// Candidates of a block about, at most: with all that is worked on, 75 bytes each.
 constexpr double kCandidatesOfBlock = 1.5e6;
 
+/// So few candidates of a search are held as a whole: making them again and again takes longer.
+constexpr double kCandidatesOfSearch = 6e6;
+
 /// After so many tries of a search the places stay, so that the number of points changes with the
 /// spacing alone: a finer lattice of places makes a denser packing.
 constexpr int kTriesOfPlaces = 2;
@@ -60,7 +63,7 @@ Candidates Consolidation::all_candidates(const Execution& execution) const {
 }
 
 bool Consolidation::is_small() const {
-    return proposer_->mean_places() * static_cast<double>(fields_.size()) <= kCandidatesOfBlock;
+    return proposer_->mean_places() * static_cast<double>(fields_.size()) <= kCandidatesOfSearch;
 }
 
 /// Its cells lie around the middle of the LPFs, wherever a stray point may be.
