@@ -10,11 +10,10 @@
 #include "core/field_set.h"
 #include "core/learn/dictionary_learning.h"
 #include "core/learn/pose.h"
+#include "core/shape/extent.h"
 
 namespace lpf {
 namespace {
-
-constexpr Eigen::Index kFewestPoints = 3;
 
 /// Eq. 2 of one LPF, less nothing: |V - D a|^2 + lambda |a|_1.
 struct FieldEnergy {
@@ -192,17 +191,11 @@ private:
 }  // namespace
 
 void check_points(const Points& points) {
-    if (points.cols() < kFewestPoints) {
-        throw Error(ErrorCode::TooFewPoints, "The shape has " + std::to_string(points.cols()) +
-                                                 " points; at least 3 are needed.");
-    }
+    check_number_of_points(static_cast<std::size_t>(points.cols()));
     if (!points.allFinite()) {
         throw Error(ErrorCode::InvalidParameter, "The shape has coordinates that are not finite.");
     }
-    if ((points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff() <= 0) {
-        throw Error(ErrorCode::DegenerateShape,
-                    "All points of the shape coincide: it has no extent.");
-    }
+    check_extent((points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff());
 }
 
 void validate(const AnalysisParams& p) {

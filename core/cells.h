@@ -15,6 +15,12 @@ struct CellsByRows {
     }
 };
 
+/// Calls visit(cell) for a cell and the 26 around it.
+template <typename Visit>
+void for_each_neighbour(const Cell& cell, const Visit& visit) {
+    for (int i = 0; i < 27; ++i) visit(cell + Cell(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+}
+
 /// The cells from `low` to below `high` along each axis.
 struct CellBox {
     Cell low;

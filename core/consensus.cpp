@@ -110,12 +110,12 @@ std::vector<Eigen::Vector3d> Consensus::settled_around(const Cell& cell) const {
     const Eigen::AlignedBox3d space = lattice_.space_of({cell, cell + Cell::Ones()});
     const Eigen::AlignedBox3d near = widened(space, 2.01 * spacing_);
     std::vector<Eigen::Vector3d> points;
-    for (int i = 0; i < 27; ++i) {
-        const auto found = settled_.find(cell + Cell(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
-        if (found == settled_.end()) continue;
+    for_each_neighbour(cell, [&](const Cell& neighbour) {
+        const auto found = settled_.find(neighbour);
+        if (found == settled_.end()) return;
         std::ranges::copy_if(found->second.points, std::back_inserter(points),
                              [&](const Eigen::Vector3d& point) { return near.contains(point); });
-    }
+    });
     return points;
 }
 

@@ -77,9 +77,7 @@ Consensus Consolidation::pass(double spacing, const Execution& execution) const 
     const auto most = static_cast<std::size_t>(kCandidatesOfBlock / proposer_->mean_places());
     const std::vector<Block> blocks = divide(fields_.frames, consensus.cells(), spacing, most);
     for (std::size_t b = 0; b < blocks.size(); ++b) {
-        const auto count = static_cast<double>(blocks.size());
-        const Execution part =
-            part_of(execution, static_cast<double>(b) / count, static_cast<double>(b + 1) / count);
+        const Execution part = step_of(execution, b, blocks.size());
         const Eigen::AlignedBox3d space = consensus.cells().space_of(blocks[b].box);
         const Candidates candidates = proposer_->propose(
             blocks[b].fields, widened(space, 1.01 * spacing), part_of(part, 0.0, 0.7));

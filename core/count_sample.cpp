@@ -33,11 +33,11 @@ MembersOfCells members_of_cells(const FieldSet& fields, const CellLattice& latti
 
 std::vector<std::uint32_t> members_around(const MembersOfCells& members, const Cell& cell) {
     std::vector<std::uint32_t> around;
-    for (int i = 0; i < 27; ++i) {
-        const auto found = members.find(cell + Cell(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
-        if (found == members.end()) continue;
+    for_each_neighbour(cell, [&](const Cell& neighbour) {
+        const auto found = members.find(neighbour);
+        if (found == members.end()) return;
         around.insert(around.end(), found->second.fields.begin(), found->second.fields.end());
-    }
+    });
     std::ranges::sort(around);
     return around;
 }

@@ -69,16 +69,14 @@ DenoiseResult denoise(const Shape& shape, const DenoiseParams& params, const Exe
     std::vector<double> rms_moves;
     DenoiseParams now = params;
 
-    for (int i = 0;; ++i) {
+    for (std::size_t i = 0;; ++i) {
         const auto move = [&](const std::vector<std::uint32_t>& order, const Moves& moves) {
             rms_moves.push_back(
                 move_points(order, moves, step_length(params), current.cloud.points, execution));
         };
         AnalysisResult analysis =
             find_moves(current, now, {},
-                       part_of(execution, static_cast<double>(i) / params.iterations,
-                               static_cast<double>(i + 1) / params.iterations),
-                       move);
+                       step_of(execution, i, static_cast<std::size_t>(params.iterations)), move);
         if (!goes_on(params, rms_moves)) {
             return {std::move(current.cloud.points), std::move(rms_moves), std::move(analysis)};
         }

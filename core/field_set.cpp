@@ -239,8 +239,8 @@ std::vector<float> FieldSet::probe_sample(const std::vector<std::size_t>& sample
 
 void FieldSet::optimise_poses(int passes, const Execution& execution) {
     for (int pass = 0; pass < passes; ++pass) {
-        const Execution part = part_of(execution, static_cast<double>(pass) / passes,
-                                       static_cast<double>(pass + 1) / passes);
+        const Execution part =
+            step_of(execution, static_cast<std::size_t>(pass), static_cast<std::size_t>(passes));
         parallel_for(part, "pose", "fields", size(), kFieldsPerChunk,
                      [&](std::size_t begin, std::size_t end, std::size_t) {
                          Worker worker = make_worker(0);

@@ -5,13 +5,12 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <string>
 #include <utility>
 
-#include "core/base/error.h"
 #include "core/base/joined_progress.h"
 #include "core/field_set.h"
 #include "core/outer_iteration.h"
+#include "core/shape/extent.h"
 #include "core/shape/outliers.h"
 #include "core/shape/tiling.h"
 
@@ -97,13 +96,14 @@ public:
           tiles_(source, partition_, reach_of_fields(params.analysis), execution),
           excerpt_(make_excerpt(source,
                                 Partition(sketch_, static_cast<double>(tiling.patch_points)),
-                                tiling.patches, reach_of_fields(params.analysis), execution)) {}
+                                tiling.patches, reach_of_fields(params.analysis), execution)),
+          counts_duplicates_(tiling.count_duplicates) {}
 
     TiledDenoising run(const Execution& execution) {
         std::vector<double> rms_moves;
-        for (int i = 0;; ++i) {
-            const Execution outer = part_of(execution, static_cast<double>(i) / params_.iterations,
-                                            static_cast<double>(i + 1) / params_.iterations);
+        for (std::size_t i = 0;; ++i) {
+            const Execution outer =
+                step_of(execution, i, static_cast<std::size_t>(params_.iterations));
             if (!params_.analysis.keep_dictionary) learn(part_of(outer, 0.0, kShareOfLearning));
             Parts parts(tiles_.size());
             rms_moves.push_back(move_all(parts, part_of(outer, kShareOfLearning, 1.0)));
@@ -119,31 +119,29 @@ private:
     static constexpr double kShareOfLearning = 0.05;
 
     static Sketch checked(Sketch sketch) {
-        if (sketch.of < 3) {
-            throw Error(ErrorCode::TooFewPoints, "The shape has " + std::to_string(sketch.of) +
-                                                     " points; at least 3 are needed.");
-        }
-        if (!((sketch.high - sketch.low).maxCoeff() > 0)) {
-            throw Error(ErrorCode::DegenerateShape,
-                        "All points of the shape coincide: it has no extent.");
-        }
+        check_number_of_points(sketch.of);
+        check_extent((sketch.high - sketch.low).maxCoeff());
         return sketch;
     }
 
-    /// Some points where they are now.
-    [[nodiscard]] Shape load(std::span<const std::uint32_t> indices) const {
-        Shape part;
-        source_.read(indices, part.cloud.points);
+    /// Some points where they were at first.
+    [[nodiscard]] Points load(std::span<const std::uint32_t> indices) const {
+        Points points;
+        source_.read(indices, points);
+        return points;
+    }
+
+    /// The same points where they are now.
+    [[nodiscard]] Shape moved(Points points, std::span<const std::uint32_t> indices) const {
         for (std::size_t i = 0; i < indices.size() && !moves_.empty(); ++i) {
-            part.cloud.points.col(static_cast<Eigen::Index>(i)) +=
-                moves_[indices[i]].cast<double>();
+            points.col(static_cast<Eigen::Index>(i)) += moves_[indices[i]].cast<double>();
         }
-        return part;
+        return {{std::move(points), {}}, {}};
     }
 
     /// The dictionary that all tiles share.
     void learn(const Execution& execution) {
-        const Shape part = load(excerpt_.points);
+        const Shape part = moved(load(excerpt_.points), excerpt_.points);
         FieldSet fields(part, params_.analysis, part_of(execution, 0.0, 0.3), excerpt_.boxes);
         fields.optimise_poses(params_.analysis.pose_iterations, part_of(execution, 0.3, 0.5));
         params_.analysis.initial_dictionary =
@@ -176,9 +174,9 @@ private:
                              const Execution& execution) {
         const Box& box = partition_.boxes()[tile];
         const std::span<const std::uint32_t> indices = tiles_.points(tile);
-        Points original;
-        source_.read(indices, original);
-        if (moves_.empty()) duplicates_ += count_duplicates(original, box, execution);
+        const Points original = load(indices);
+        if (counts_duplicates_ && moves_.empty())
+            duplicates_ += count_duplicates(original, box, execution);
         const auto move_own = [&](const std::vector<std::uint32_t>& order, const Moves& found) {
             const double step = step_length(params_);
             for (std::size_t i = 0; i < order.size(); ++i) {
@@ -190,7 +188,8 @@ private:
         };
         DenoiseParams params = params_;
         params.analysis.keep_dictionary = true;
-        AnalysisResult part = find_moves(load(indices), params, {box}, execution, move_own);
+        AnalysisResult part =
+            find_moves(moved(original, indices), params, {box}, execution, move_own);
         keep_own(box, part);
         return part;
     }
@@ -201,6 +200,7 @@ private:
     Partition partition_;
     Tiling tiles_;
     Excerpt excerpt_;
+    bool counts_duplicates_;
     std::vector<Eigen::Vector3f> moves_;  // so far; empty in the first iteration
     std::atomic<std::size_t> duplicates_{0};
 };

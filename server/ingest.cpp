@@ -8,7 +8,7 @@
 #include "core/shape/noise.h"
 #include "server/ids.h"
 #include "server/mapped_file.h"
-#include "server/runner.h"
+#include "server/streaming.h"
 
 namespace lpf::server {
 namespace {

@@ -31,13 +31,6 @@ JobOutcome finish(Report report, ResultWriter& writer, const PhaseTimes& times,
 
 }  // namespace
 
-DecodeLimits decode_limits(const Limits& limits) {
-    DecodeLimits out;
-    out.max_points = limits.points;
-    out.max_faces = limits.faces;
-    return out;
-}
-
 Runner::Runner(Storage& storage, RunnerOptions options)
     : storage_(storage), options_(std::move(options)) {}
 
@@ -105,7 +98,8 @@ JobOutcome Runner::run(RunningJob& job, const ShapeInfo& shape, const PlyPoints&
     times.end_of("measure");
 
     TiledDenoising result =
-        denoise_tiles(points, parameters.denoise, execution(job, kMeasured, kComputed));
+        denoise_tiles(points, parameters.denoise, execution(job, kMeasured, kComputed),
+                      {.count_duplicates = true});
     report.duplicates = result.duplicates;
     tell_duplicates(report.duplicates, DuplicatePolicy::Keep, job);
     times.end_of("compute");

@@ -20,9 +20,6 @@ struct RunnerOptions {
     std::size_t most_in_memory = kMostAtOnce;  ///< points; larger clouds are streamed, if they can
 };
 
-/// Limits of decoding that follow from those of the service.
-[[nodiscard]] DecodeLimits decode_limits(const Limits& limits);
-
 /// Does the work of a job, from its shape to its results. Holds no state of a job.
 class Runner {
 public:

@@ -1,8 +1,13 @@
 #include "server/streaming.h"
 
-#include "server/runner.h"
-
 namespace lpf::server {
+
+DecodeLimits decode_limits(const Limits& limits) {
+    DecodeLimits out;
+    out.max_points = limits.points;
+    out.max_faces = limits.faces;
+    return out;
+}
 
 bool can_stream(Task task, const JobInputs& inputs) {
     return task == Task::Denoise &&

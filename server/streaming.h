@@ -11,6 +11,9 @@
 
 namespace lpf::server {
 
+/// Limits of decoding that follow from those of the service.
+[[nodiscard]] DecodeLimits decode_limits(const Limits& limits);
+
 /// Whether a job reads its shape and writes its result part by part, so far as that depends on what
 /// was asked for: a denoising that neither drops points nor changes their attributes.
 [[nodiscard]] bool can_stream(Task task, const JobInputs& inputs);

@@ -4,7 +4,6 @@
 
 #include "api/codec/faces.h"
 #include "api/memory_need.h"
-#include "server/runner.h"
 #include "server/streaming.h"
 
 namespace lpf::server {

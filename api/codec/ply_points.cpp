@@ -7,7 +7,6 @@
 #include "api/codec/ply.h"
 #include "api/codec/ply_checks.h"
 #include "api/codec/ply_columns.h"
-#include "api/codec/strided.h"
 
 namespace lpf {
 namespace {

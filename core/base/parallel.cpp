@@ -104,6 +104,11 @@ Execution on_one_thread(const Execution& execution) {
     return sequential;
 }
 
+Execution step_of(const Execution& execution, std::size_t step, std::size_t steps) {
+    const auto all = static_cast<double>(steps);
+    return part_of(execution, static_cast<double>(step) / all, static_cast<double>(step + 1) / all);
+}
+
 Execution part_of(const Execution& execution, double low, double high) {
     Execution part = execution;
     if (execution.progress) {

@@ -43,6 +43,9 @@ void throw_if_cancelled(const Execution& execution);
 /// computation made of steps reports one rising fraction.
 [[nodiscard]] Execution part_of(const Execution& execution, double low, double high);
 
+/// The same for step number `step` of `steps` that take about as long each.
+[[nodiscard]] Execution step_of(const Execution& execution, std::size_t step, std::size_t steps);
+
 /// Like parallel_for, and reports `phase` as chunks finish.
 void parallel_for(const Execution& execution, std::string_view phase, std::string_view unit,
                   std::size_t n, std::size_t chunk_size,

@@ -90,8 +90,8 @@ void learn_dictionary(const FieldSample& sample, const Coder& coder, int rounds,
     if (sample.count() == 0) return;
     Random random(random_seed, 0x1ea2);
     for (int round = 0; round < rounds; ++round) {
-        const Execution part = part_of(execution, static_cast<double>(round) / rounds,
-                                       static_cast<double>(round + 1) / rounds);
+        const Execution part =
+            step_of(execution, static_cast<std::size_t>(round), static_cast<std::size_t>(rounds));
         const DictionaryStatistics statistics =
             encode_sample(sample, coder, dictionary, codes, part);
         for (const int atom : statistics.update(dictionary)) {

@@ -3,11 +3,10 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <vector>
 
-#include "core/base/error.h"
 #include "core/base/random.h"
+#include "core/shape/extent.h"
 #include "core/shape/point_grid.h"
 #include "core/shape/tiling.h"
 
@@ -262,15 +261,9 @@ Measurements measure(const Sampled& cloud, const Execution& execution) {
     const Points& points = cloud.points;
     Measurements result;
     result.points = static_cast<std::size_t>(points.cols());
-    if (result.points < 3) {
-        throw Error(ErrorCode::TooFewPoints, "The shape has " + std::to_string(result.points) +
-                                                 " points; at least 3 are needed.");
-    }
+    check_number_of_points(result.points);
     result.diagonal = (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
-    if (!(result.diagonal > 0)) {
-        throw Error(ErrorCode::DegenerateShape,
-                    "All points of the shape coincide: it has no extent.");
-    }
+    check_extent(result.diagonal);
     const double cell = cell_of_some_points(points, kPointsInCell);
     const PointGrid grid(points, cell, execution);
     const double radius = measure_spacing(cloud, grid, cell, result, execution);

@@ -8,7 +8,7 @@
 #include "server/handlers/handlers.h"
 #include "server/handlers/lookup.h"
 #include "server/mapped_file.h"
-#include "server/runner.h"
+#include "server/streaming.h"
 
 namespace lpf::server {
 namespace {

@@ -15,7 +15,8 @@
 namespace lpf {
 namespace {
 
-constexpr TilingParams kSmallTiles{.points = 6000, .patches = 12, .patch_points = 3000};
+constexpr TilingParams kSmallTiles{
+    .points = 6000, .patches = 12, .patch_points = 3000, .count_duplicates = true};
 
 Points with(const Points& points, const std::vector<Eigen::Vector3f>& moves) {
     Points moved = points;

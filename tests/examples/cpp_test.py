@@ -7,7 +7,7 @@ import urllib.error
 import pytest
 from conftest import rmse, serve, simulate, vertices
 from flaky_proxy import FlakyProxy
-from programs import CPP, client, get, interrupt_while_running, key_file, start_slow_job
+from programs import CPP, client, fill_queue, get, interrupt_while_running, key_file
 
 
 def run(url, *arguments, **options):
@@ -64,9 +64,7 @@ def test_failed_job(url, tmp_path):
 def test_full_queue(scan, tmp_path):
     large = simulate(tmp_path / "large.ply", "sphere", 20000)
     with serve(tmp_path, "--jobs", "1", "--max-queued-jobs", "1") as url:
-        with pytest.raises(urllib.error.HTTPError):
-            while True:
-                start_slow_job(url, large)
+        fill_queue(url, large)
         assert "queue is full" in run(url, "denoise", scan, tmp_path / "o", retries=0, expect=5)[1]
 
 

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+import urllib.error
 import urllib.request
 
 from conftest import BIN, ROOT, simulate
@@ -57,6 +58,19 @@ def start_slow_job(url, scan):
             f"{url}/v1/processes/analyze/execution?{query}", scan.read_bytes(),
             {"Content-Type": "application/octet-stream"}), timeout=20) as answer:
         return json.load(answer)["jobID"]
+
+
+def fill_queue(url, scan):
+    """Slow jobs until no more are accepted; the first of them runs. Their IDs."""
+    jobs = [start_slow_job(url, scan)]
+    # While it waited for a worker, it would take the queue's place of another one.
+    wait_until(lambda: get(url, "/v1/jobs?status=running")["jobs"])
+    while True:
+        try:
+            jobs.append(start_slow_job(url, scan))
+        except urllib.error.HTTPError as full:
+            assert full.code == 503
+            return jobs
 
 
 def dismiss(url, job):

@@ -10,8 +10,8 @@ import urllib.error
 import pytest
 from conftest import rmse, serve, simulate, vertices
 from flaky_proxy import FlakyProxy
-from programs import (PYTHON, client, dismiss, environment, get, interrupt_while_running,
-                      key_file, start_slow_job)
+from programs import (PYTHON, client, dismiss, environment, fill_queue, get,
+                      interrupt_while_running, key_file)
 
 KEY = "correct-horse-battery-staple"
 
@@ -132,13 +132,7 @@ def test_failed_job(url, tmp_path):
 def test_full_queue(scan, tmp_path):
     large = simulate(tmp_path / "large.ply", "sphere", 20000)
     with serve(tmp_path, "--jobs", "1", "--max-queued-jobs", "1") as url:
-        jobs = [start_slow_job(url, large)]
-        while True:
-            try:
-                jobs.append(start_slow_job(url, large))
-            except urllib.error.HTTPError as full:
-                assert full.code == 503
-                break
+        jobs = fill_queue(url, large)
         _, said = run(url, "denoise", scan, "-o", tmp_path / "o.ply", "--retries", "0", expect=5)
         assert "The queue is full" in said
         for job in jobs:

@@ -12,39 +12,15 @@
 #include "server/sha256.h"
 #include "server/sqlite_job_store.h"
 #include "tests/server/example_shapes.h"
-#include "tests/server/temporary_folder.h"
+#include "tests/server/runner_fixture.h"
 
 namespace lpf::server {
 namespace {
 
-class RunnerTest : public testing::Test {
+class RunnerTest : public JobRunning {
 protected:
-    /// Runs a job on bytes, without a queue.
     JobOutcome run(Task task, const JobInputs& inputs, const std::string& bytes) {
-        ShapeInfo shape;
-        shape.id = new_id();
-        shape.format = "ply";
-        shape.sha256 = blobs_.put(bytes);
-        StatusInfo info;
-        info.job_id = new_id();
-        info.process = task;
-        info.parameters = inputs;
-        info.shape = books_.add_shape(shape).id;
-        job_ = std::make_unique<RunningJob>(ClaimedJob{info, {info.job_id, "token"}}, 600);
-        return Runner(storage_, {.limits = {}, .threads = 2, .version = "test"}).run(*job_);
-    }
-
-    [[nodiscard]] std::string bytes_of(const JobOutcome& outcome, ResultKind kind) const {
-        for (const ResultFile& file : outcome.results) {
-            if (file.kind == kind)
-                return std::string(MappedFile(blobs_.local_file(file.sha256)).text());
-        }
-        return {};
-    }
-
-    [[nodiscard]] Document points_of(const JobOutcome& outcome) const {
-        const std::string bytes = bytes_of(outcome, ResultKind::Points);
-        return decode(std::as_bytes(std::span(bytes)));
+        return run_job(task, inputs, bytes);
     }
 
     [[nodiscard]] bool warned(const std::string& code) const {
@@ -60,11 +36,6 @@ protected:
     }
 
     const std::string square_ = wavy_square(24);
-    TemporaryFolder folder_;
-    FileBlobStore blobs_{folder_.path()};
-    SqliteJobStore books_{folder_.path() / "jobs.sqlite"};
-    Storage storage_{books_, blobs_};
-    std::unique_ptr<RunningJob> job_;
 };
 
 TEST_F(RunnerTest, DenoisingKeepsNumberOrderAndAttributes) {

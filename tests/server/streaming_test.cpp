@@ -6,13 +6,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "server/file_blob_store.h"
-#include "server/ids.h"
-#include "server/runner.h"
-#include "server/sqlite_job_store.h"
 #include "server/subject.h"
 #include "tests/server/example_shapes.h"
-#include "tests/server/temporary_folder.h"
+#include "tests/server/runner_fixture.h"
 
 namespace lpf::server {
 namespace {
@@ -30,50 +26,21 @@ std::string odd_square() {
     return encode(document, {.format = FileFormat::PlyBinary, .double_positions = false}, lost);
 }
 
-class StreamingTest : public testing::Test {
+class StreamingTest : public JobRunning {
 protected:
     JobOutcome run(const JobInputs& inputs, std::size_t most_in_memory) {
         ShapeInfo shape;
-        shape.id = new_id();
-        shape.format = "ply";
-        shape.sha256 = blobs_.put(square_);
         shape.points = kPoints - 1;
         shape.bounds = bounds_of(decode(std::as_bytes(std::span(square_))).shape.cloud.points);
         shape.warnings = {{"non-finite-points-dropped", "1 point"}};
-        StatusInfo info;
-        info.job_id = new_id();
-        info.process = Task::Denoise;
-        info.parameters = inputs;
-        info.shape = books_.add_shape(shape).id;
-        job_ = std::make_unique<RunningJob>(ClaimedJob{info, {info.job_id, "token"}}, 600);
-        RunnerOptions options{.limits = {}, .threads = 2, .version = "test"};
-        options.most_in_memory = most_in_memory;
-        return Runner(storage_, options).run(*job_);
-    }
-
-    [[nodiscard]] std::string result(const JobOutcome& outcome, ResultKind kind) const {
-        for (const ResultFile& file : outcome.results) {
-            if (file.kind == kind)
-                return std::string(MappedFile(blobs_.local_file(file.sha256)).text());
-        }
-        return {};
-    }
-
-    [[nodiscard]] Document points(const JobOutcome& outcome) const {
-        const std::string bytes = result(outcome, ResultKind::Points);
-        return decode(std::as_bytes(std::span(bytes)));
+        return run_job(Task::Denoise, inputs, square_, std::move(shape), most_in_memory);
     }
 
     [[nodiscard]] nlohmann::json report(const JobOutcome& outcome) const {
-        return nlohmann::json::parse(result(outcome, ResultKind::Report));
+        return nlohmann::json::parse(bytes_of(outcome, ResultKind::Report));
     }
 
     const std::string square_ = odd_square();
-    TemporaryFolder folder_;
-    FileBlobStore blobs_{folder_.path()};
-    SqliteJobStore books_{folder_.path() / "jobs.sqlite"};
-    Storage storage_{books_, blobs_};
-    std::unique_ptr<RunningJob> job_;
 };
 
 TEST_F(StreamingTest, GivesWhatAJobGivesThatHoldsItsShape) {
@@ -81,8 +48,8 @@ TEST_F(StreamingTest, GivesWhatAJobGivesThatHoldsItsShape) {
     const JobOutcome streamed = run({}, 100);
     EXPECT_EQ(streamed.results.size(), held.results.size());
     EXPECT_TRUE(streamed.dictionary);
-    const Document a = points(held);
-    const Document b = points(streamed);
+    const Document a = points_of(held);
+    const Document b = points_of(streamed);
     ASSERT_EQ(a.shape.size(), kPoints - 1);
     ASSERT_EQ(b.shape.size(), kPoints - 1);
     // A cloud of one tile: only the dictionary may differ in its last digits.
@@ -92,7 +59,7 @@ TEST_F(StreamingTest, GivesWhatAJobGivesThatHoldsItsShape) {
         EXPECT_EQ(b.shape.cloud.attributes[i].name, a.shape.cloud.attributes[i].name);
         EXPECT_EQ(b.shape.cloud.attributes[i].data, a.shape.cloud.attributes[i].data);
     }
-    EXPECT_TRUE(result(streamed, ResultKind::Fields).starts_with("ply\n"));
+    EXPECT_TRUE(bytes_of(streamed, ResultKind::Fields).starts_with("ply\n"));
 }
 
 TEST_F(StreamingTest, TellsTheSame) {

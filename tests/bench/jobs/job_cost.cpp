@@ -103,7 +103,8 @@ Work run_streamed(const Options& options, const PlyPoints& points, server::FileB
     const Measurements measurements = measure(points, {.threads = options.threads});
     const ResolvedParameters parameters = resolve_parameters(Task::Denoise, {}, measurements, {});
     meter.begin("prepare");
-    const TiledDenoising result = denoise_tiles(points, parameters.denoise, execution);
+    const TiledDenoising result =
+        denoise_tiles(points, parameters.denoise, execution, {.count_duplicates = true});
     meter.begin("write");
     const auto writer = blobs.create();
     write_moved(points, result.moves, measurements.points, "measured",
