@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "core/ballot.h"
 #include "core/base/vote_kernels.h"
 #include "core/field/density_map.h"
 #include "core/field/field_image.h"
+#include "core/field/misfit_map.h"
 
 namespace lpf {
 namespace {
@@ -26,6 +28,17 @@ constexpr double kSecondWidth = 0.52;
 /// The density of an LPF's points is taken within so many sigma of its piece.
 constexpr float kSigmasOfDensity = 2.0F;
 
+/// A bias up to about so many sigma is left to the misfit map, which knows where on the disk it is.
+constexpr float kSigmasOfMisfit = 0.5F;
+
+/// The squared error that a piece promises wherever its misfit map shows none [squared radius].
+float error_off_misfits(const Piece& piece) {
+    const float limit = kSigmasOfMisfit * kSigmasOfMisfit * piece.noise * piece.noise;
+    const float mapped =
+        piece.is_curve() ? 0.0F : piece.squared_bias * limit / (piece.squared_bias + limit);
+    return piece.squared_error - mapped;
+}
+
 /// How much an LPF is believed, relative to the mean: by the squared error that its piece promises,
 /// or by the representation error where it has none.
 std::vector<float> reliabilities(const FieldSet& fields, const AnalysisResult& analysis,
@@ -33,7 +46,7 @@ std::vector<float> reliabilities(const FieldSet& fields, const AnalysisResult& a
     std::vector<float> errors(analysis.residuals);
     for (std::size_t j = 0; j < errors.size(); ++j) {
         const auto size = static_cast<float>(fields.frames[j].radius / analysis.radius);
-        errors[j] = fields.pieces[j].exists() ? fields.pieces[j].squared_error * size * size
+        errors[j] = fields.pieces[j].exists() ? error_off_misfits(fields.pieces[j]) * size * size
                                               : errors[j] * size;
     }
     const float mean = std::accumulate(errors.begin(), errors.end(), 0.0F) /
@@ -48,15 +61,17 @@ std::vector<float> reliabilities(const FieldSet& fields, const AnalysisResult& a
 /// One round of votes.
 class Round {
 public:
-    /// @param before what the round before has decided; null in the first
-    /// @param width  of the likely moves [input length]; 0 = any move is likely
+    /// @param before  what the round before has decided; null in the first
+    /// @param width   of the likely moves [input length]; 0 = any move is likely
+    /// @param misfits one for each LPF; the first round measures them
     Round(const FieldSet& fields, const AnalysisResult& analysis, const VoteParams& params,
-          const Moves* before, double width)
+          const Moves* before, double width, std::vector<MisfitMap>& misfits)
         : fields_(fields),
           analysis_(analysis),
           params_(params),
           before_(before),
           width_(static_cast<float>(width / analysis.radius)),
+          misfits_(misfits),
           reliability_(reliabilities(fields, analysis, params.sharp)) {}
 
     void run(Ballot& ballot, const Execution& execution) const {
@@ -108,15 +123,14 @@ private:
         const Piece& piece = fields_.pieces[j];
         TargetArea& target = worker.probe.target;
         if (before_) move_as_decided(j, target);
-        Arrows moves = wanted_moves(piece, worker);
-        std::vector<float> density(target.size, 1.0F);
-        if (piece.exists()) {
-            DensityMap map;
-            map.count(piece, target, kSigmasOfDensity * piece.noise);
-            map.read(target.x.data(), target.y.data(), target.size, density.data());
+        Arrows field = field_at(target, worker.decoded);
+        if (!before_ && piece.exists()) {
+            misfits_[j].measure(piece, target, field.y.data(), field.z.data());
         }
+        Arrows moves = wanted_moves(piece, target, std::move(field));
+        const std::vector<float> weights = weights_by_place(j, target);
         if (piece.sheets[0] == 0) {
-            cast(j, target, density, moves, ballot);
+            cast(j, target, weights, moves, ballot);
             return;
         }
         Arrows other = moves;
@@ -125,36 +139,64 @@ private:
             moves.z[i] += half_gap;
             other.z[i] -= half_gap;
         }
-        cast(j, target, density, moves, ballot);
-        cast(j, target, density, other, ballot);
+        cast(j, target, weights, moves, ballot);
+        cast(j, target, weights, other, ballot);
     }
 
-    /// From where the points are to the consolidated field, on the piece: T(x, y) between the
-    /// nodes, too, so that nothing snaps to them.
-    [[nodiscard]] Arrows wanted_moves(const Piece& piece, FieldSet::Worker& worker) const {
-        const TargetArea& target = worker.probe.target;
+    /// The consolidated field at the points of a target area: T(x, y) between the nodes, too, so
+    /// that nothing snaps to them.
+    [[nodiscard]] Arrows field_at(const TargetArea& target,
+                                  const std::vector<float>& decoded) const {
+        Arrows field(target.size);
+        FieldImage image(fields_.pattern());
+        image.assign(decoded.data());
+        float* const out[3] = {field.x.data(), field.y.data(), field.z.data()};
+        image.read(target.x.data(), target.y.data(), target.size, out);
+        return field;
+    }
+
+    /// From where the points are to the field, on the piece.
+    [[nodiscard]] Arrows wanted_moves(const Piece& piece, const TargetArea& target,
+                                      Arrows field) const {
         const float* x = target.x.data();
         const float* y = target.y.data();
         const std::size_t n = target.size;
-        Arrows moves(n);
-        FieldImage image(fields_.pattern());
-        image.assign(worker.decoded.data());
-        float* const out[3] = {moves.x.data(), moves.y.data(), moves.z.data()};
-        image.read(x, y, n, out);
         if (before_ && piece.dimension == kSurface) {
             // Once is enough for what pulls points from beyond a border.
-            std::ranges::fill(moves.x, 0.0F);
-            std::ranges::fill(moves.y, 0.0F);
+            std::ranges::fill(field.x, 0.0F);
+            std::ranges::fill(field.y, 0.0F);
         }
-        const Arrows along = moves;
-        add_mean_change(piece, 1.0F, x, y, along.x.data(), along.y.data(), n, out[1], out[2]);
-        add_shape(piece, x, y, along.x.data(), along.y.data(), n, out[1], out[2]);
+        Arrows moves = field;
+        add_mean_change(piece, 1.0F, x, y, field.x.data(), field.y.data(), n, moves.y.data(),
+                        moves.z.data());
+        add_shape(piece, x, y, field.x.data(), field.y.data(), n, moves.y.data(), moves.z.data());
         for (std::size_t i = 0; i < n; ++i) moves.z[i] -= target.z[i];
         for (std::size_t i = 0; piece.is_curve() && i < n; ++i) moves.y[i] -= y[i];
         return moves;
     }
 
-    /// @param weights the density of the LPF's points at each
+    /// What the LPF says at each point counts as much as its own points are dense there, and less
+    /// where it does not suit them.
+    [[nodiscard]] std::vector<float> weights_by_place(std::size_t j,
+                                                      const TargetArea& target) const {
+        const Piece& piece = fields_.pieces[j];
+        const std::size_t n = target.size;
+        std::vector<float> weights(n, 1.0F);
+        if (!piece.exists()) return weights;
+        DensityMap density;
+        density.count(piece, target, kSigmasOfDensity * piece.noise);
+        density.read(target.x.data(), target.y.data(), n, weights.data());
+        std::vector<float> misfit(n);
+        misfits_[j].read(target.x.data(), target.y.data(), n, misfit.data());
+        const float size = size_of(j);
+        const float error = error_off_misfits(piece) + kErrorFloor / (size * size);
+        for (std::size_t i = 0; i < n; ++i) {
+            weights[i] = std::min(weights[i], 1.0F) * error / (error + misfit[i]);
+        }
+        return weights;
+    }
+
+    /// @param weights by place
     void cast(std::size_t j, const TargetArea& target, std::vector<float> weights, Arrows& moves,
               Ballot& ballot) const {
         const float size = size_of(j);
@@ -176,6 +218,7 @@ private:
     const VoteParams& params_;
     const Moves* before_;
     float width_;
+    std::vector<MisfitMap>& misfits_;
     std::vector<float> reliability_;
 };
 
@@ -183,9 +226,10 @@ private:
 
 Moves vote(const FieldSet& fields, const AnalysisResult& analysis, const VoteParams& params,
            const Execution& execution) {
+    std::vector<MisfitMap> misfits(fields.size());
     const auto decide = [&](const Moves* before, double width, const Execution& part) {
         Ballot ballot(fields.grid().size(), execution);
-        Round(fields, analysis, params, before, width).run(ballot, part);
+        Round(fields, analysis, params, before, width, misfits).run(ballot, part);
         Moves moves(fields.grid().size());
         parallel_for(execution, moves.size(), kPointsPerChunk,
                      [&](std::size_t begin, std::size_t end, std::size_t) {

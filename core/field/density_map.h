@@ -1,14 +1,11 @@
 #pragma once
 
-#include <array>
-
-#include "core/base/vote_kernels.h"
+#include "core/field/disk_raster.h"
 #include "core/field/piece.h"
 
 namespace lpf {
 
 /// How densely the members of a piece lie over its disk: a piece says less where it has no points.
-/// A raster over the disk, or along a curve, read bilinearly.
 class DensityMap {
 public:
     /// Counts the members of a flattened target area.
@@ -19,14 +16,9 @@ public:
     void read(const float* x, const float* y, std::size_t n, float* out) const;
 
 private:
-    static constexpr int kCells = 12;
-    static constexpr int kSide = kCells + 2;
-
-    [[nodiscard]] kernels::Image image() const;
-
-    bool along_curve_ = false;
+    DiskRaster raster_;
     float level_ = 0.0F;  // mean density that a member sees; 0 = no members
-    std::array<float, kSide * kSide> cells_{};
+    DiskRaster::Values cells_{};
 };
 
 }  // namespace lpf

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/base/kernels.h"
 #include "core/field/normal_equations.h"
@@ -17,6 +18,13 @@ constexpr double kDampingOfBends = 1e-5;
 /// Blocks along an axis of a surface, and along a curve.
 constexpr int kBlocks = 7;
 constexpr int kCurveBlocks = 14;
+
+/// A curve holds about as many points everywhere. Blocks that hold so many standard deviations more
+/// than the lowest fourth are crowded: another part of the shape passes there. If most are, none
+/// is.
+constexpr std::ptrdiff_t kBlocksPerUsual = 4;
+constexpr double kDeviationsOfCrowd = 3.0;
+constexpr std::ptrdiff_t kFewestBlocks = 6;
 
 /// The normal equations of a parabola, from the moments in the order of kernels::parabola_moments.
 NormalEquations<6> parabola_equations(const float* moments) {
@@ -46,10 +54,47 @@ void fit_surface(const PieceSample& sample, std::size_t count, Piece& piece) {
     for (int k = 0; k < 6; ++k) piece.coefficients[k] = static_cast<float>(solution(k, 0));
 }
 
+std::size_t block_along(float extent, float x, int count) {
+    const float share = (x / extent + 1) / 2;
+    return static_cast<std::size_t>(
+        std::clamp(static_cast<int>(share * static_cast<float>(count)), 0, count - 1));
+}
+
+/// Which blocks along a curve are crowded, by the first `count` points.
+class Crowd {
+public:
+    Crowd(const PieceSample& sample, std::size_t count, const Piece& piece) : sample_(sample) {
+        std::array<double, kCurveBlocks> points{};
+        for (std::size_t i = 0; i < count; ++i) points[block_of(i)] += sample.is_member(piece, i);
+        std::array<double, kCurveBlocks> usual{};
+        const auto end =
+            std::ranges::copy_if(points, usual.begin(), [](double n) { return n > 0; }).out;
+        const auto used = end - usual.begin();
+        if (used < kFewestBlocks) return;
+        const auto low = usual.begin() + used / kBlocksPerUsual;
+        std::nth_element(usual.begin(), low, end);
+        const double most = *low + kDeviationsOfCrowd * std::sqrt(*low);
+        const auto is_crowded = [most](double n) { return n > most; };
+        if (2 * std::ranges::count_if(points, is_crowded) > used) return;
+        std::ranges::transform(points, is_crowded_.begin(), is_crowded);
+    }
+
+    [[nodiscard]] bool holds(std::size_t i) const { return is_crowded_[block_of(i)]; }
+
+private:
+    [[nodiscard]] std::size_t block_of(std::size_t i) const {
+        return block_along(sample_.extent(), sample_.x[i], kCurveBlocks);
+    }
+
+    const PieceSample& sample_;
+    std::array<bool, kCurveBlocks> is_crowded_{};
+};
+
 void fit_curve(const PieceSample& sample, std::size_t count, Piece& piece) {
+    const Crowd crowd(sample, count, piece);
     NormalEquations<4, 2> equations;
     for (std::size_t i = 0; i < count; ++i) {
-        if (!sample.is_member(piece, i)) continue;
+        if (!sample.is_member(piece, i) || crowd.holds(i)) continue;
         const double x = sample.x[i];
         equations.add({1, x, x * x, x * x * x}, {sample.y[i], sample.z[i]});
     }
@@ -72,12 +117,8 @@ struct Block {
 using Blocks = std::array<Block, kBlocks * kBlocks>;
 
 std::size_t block_of(const Piece& piece, float extent, float x, float y) {
-    const auto cell = [extent](float value, int count) {
-        const float share = (value / extent + 1) / 2;
-        return std::clamp(static_cast<int>(share * static_cast<float>(count)), 0, count - 1);
-    };
-    return static_cast<std::size_t>(
-        piece.is_curve() ? cell(x, kCurveBlocks) : cell(y, kBlocks) * kBlocks + cell(x, kBlocks));
+    if (piece.is_curve()) return block_along(extent, x, kCurveBlocks);
+    return block_along(extent, y, kBlocks) * kBlocks + block_along(extent, x, kBlocks);
 }
 
 double unknowns_of(const Piece& piece) {
@@ -98,8 +139,10 @@ void fit_smooth(const PieceSample& sample, std::size_t count, Piece& piece) {
 std::size_t estimate_error(const PieceSample& sample, Piece& piece) {
     Blocks blocks{};
     std::size_t members = 0;
+    std::optional<Crowd> crowd;
+    if (piece.is_curve()) crowd.emplace(sample, sample.size(), piece);
     for (std::size_t i = 0; i < sample.size(); ++i) {
-        if (!sample.is_member(piece, i)) continue;
+        if (!sample.is_member(piece, i) || (crowd && crowd->holds(i))) continue;
         ++members;
         const float x = sample.x[i];
         const float y = sample.y[i];

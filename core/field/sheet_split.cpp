@@ -32,8 +32,9 @@ constexpr int kRounds = 3;
 constexpr std::size_t kFewestMembers = 20;
 constexpr double kDampingOfTilt = 1e-3;
 
-/// Two sheets that err more than one by this ratio are none.
-constexpr float kMostError = 1.5F;
+/// Two sheets bend alike: what lies off the surface midway between them, place by place, is less
+/// than this share of their squared half distance. Near an edge it is more.
+constexpr float kMostBend = 0.1F;
 
 /// Squared half distance over (1, x, y) about the piece's mean, and the moments of the offsets.
 struct Scatter {
@@ -83,6 +84,10 @@ std::optional<Piece> two_sheets(PieceSample& sample, float sigmas, Piece piece) 
         piece.reach = 3 * piece.noise + static_cast<float>(std::sqrt(gap));
     }
     if (!is_flatter_than_noise(found, variance)) return std::nullopt;
+    estimate_error(sample, piece);
+    if (piece.squared_bias > kMostBend * static_cast<float>(found.squared_gap[0])) {
+        return std::nullopt;
+    }
     for (int k = 0; k < 3; ++k) piece.sheets[k] = static_cast<float>(found.squared_gap[k]);
     piece.reach = sigmas * piece.noise;
     return piece;
@@ -92,11 +97,11 @@ std::optional<Piece> two_sheets(PieceSample& sample, float sigmas, Piece piece) 
 
 void split_sheets(PieceSample& sample, float sigmas, Piece& piece) {
     if (piece.is_curve() || piece.crease.slope != 0 || piece.noise < kLeastNoise) return;
-    std::optional<Piece> split = two_sheets(sample, sigmas, piece);
+    const std::optional<Piece> split = two_sheets(sample, sigmas, piece);
     if (!split) return;
-    sample.measure(*split, sample.size());
-    estimate_error(sample, *split);
-    if (split->squared_error < kMostError * piece.squared_error) piece = *split;
+    piece = *split;
+    sample.measure(piece, sample.size());
+    estimate_error(sample, piece);
 }
 
 }  // namespace lpf

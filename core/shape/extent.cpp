@@ -13,8 +13,8 @@ constexpr std::size_t kFewestPoints = 3;
 
 void check_number_of_points(std::size_t points) {
     if (points >= kFewestPoints) return;
-    throw Error(ErrorCode::TooFewPoints, "The shape has " + std::to_string(points) +
-                                             " points; at least 3 are needed.");
+    throw Error(ErrorCode::TooFewPoints,
+                "The shape has " + std::to_string(points) + " points; at least 3 are needed.");
 }
 
 void check_extent(double extent) {

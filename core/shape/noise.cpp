@@ -1,6 +1,5 @@
 #include "core/shape/noise.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -8,6 +7,7 @@
 #include "core/base/random.h"
 #include "core/shape/extent.h"
 #include "core/shape/point_grid.h"
+#include "core/shape/spread.h"
 #include "core/shape/tiling.h"
 
 namespace lpf {
@@ -32,15 +32,8 @@ constexpr int kMostSteps = 1000;      // coordinates may be as large as numbers 
 constexpr double kShareOfStep = 0.9;  // of the way to the ball that the spread asks for
 constexpr double kNearlyWide = 1.1;
 
-/// Two sheets leave less than this share of the variance when they are told apart; an even block
-/// leaves .25, noise alone .36, what a ball cuts out of noise .30.
-constexpr double kTwoSheets = 0.23;
-constexpr int kSplitRounds = 4;
-constexpr double kFewestForTwo = 50;  // of fewer points, chance makes two groups
-
 /// A ball larger than this share of the diagonal shows the whole shape, not what it is made of.
 constexpr double kLargestBall = 0.25;
-constexpr std::size_t kMostInBall = 3000;
 
 /// A cloud that is not in memory is measured in so many boxes of about so many points each, with
 /// all around them within so many radii and sigma, which a look at a few larger ones tells.
@@ -79,69 +72,23 @@ struct Sampled {
     }
 };
 
-/// The variance within two groups of heights, split where it is least (2-means from the mean).
-double variance_of_two(const std::vector<double>& heights) {
-    double split = 0.0;
-    double within = 0.0;
-    for (int round = 0; round < kSplitRounds; ++round) {
-        double count[2] = {0, 0};
-        double sum[2] = {0, 0};
-        double squares = 0.0;
-        for (const double h : heights) {
-            count[h > split] += 1;
-            sum[h > split] += h;
-            squares += h * h;
-        }
-        if (count[0] == 0 || count[1] == 0) break;
-        split = (sum[0] / count[0] + sum[1] / count[1]) / 2;
-        within = (squares - sum[0] * sum[0] / count[0] - sum[1] * sum[1] / count[1]) /
-                 (count[0] + count[1]);
-    }
-    return std::max(0.0, within);
-}
-
-/// The spread off the best plane; off the nearer of two parallel ones where the ball holds both
-/// sides of something thin [radius of the ball].
-double spread_off_plane(const NearPoints& ball, std::vector<double>& heights) {
-    // A large ball is thinned: its covariance is as good from a few thousand points.
-    const std::size_t stride = 1 + ball.size / kMostInBall;
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-    double count = 0;
-    for (std::size_t i = 0; i < ball.size; i += stride, ++count) {
-        const Eigen::Vector3d p(ball.x[i], ball.y[i], ball.z[i]);
-        mean += p;
-        squares += p * p.transpose();
-    }
-    mean /= count;
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-    solver.computeDirect(squares / count - mean * mean.transpose());
-    const Eigen::Vector3d normal = solver.eigenvectors().col(0);
-    const double offset = normal.dot(mean);
-    heights.clear();
-    for (std::size_t i = 0; i < ball.size; i += stride) {
-        heights.push_back(normal.dot(Eigen::Vector3d(ball.x[i], ball.y[i], ball.z[i])) - offset);
-    }
-    // Three degrees of freedom went into the plane.
-    const double unbiased = count / std::max(1.0, count - 3);
-    const double whole = std::max(0.0, solver.eigenvalues()[0]);
-    const double parted = count < kFewestForTwo ? whole : variance_of_two(heights);
-    return std::sqrt(unbiased * (parted < kTwoSheets * whole ? parted : whole));
-}
-
-/// A ball cuts off what noise carries beyond it: the spread in one of radius R is too small by
-/// about this much times (spread / R)^2.
-constexpr double kCutOff = 1.9;
-
 /// Edges and thin parts add to the spread, so that less than the median is noise. Of balls on a
 /// plane, the spread at this quantile lies so many standard deviations below the mean.
 constexpr double kQuantile = 0.2;
 constexpr double kDeviationsBelow = 0.842;
 
-double undo_cuts(double share, std::size_t points) {
-    const double counted = static_cast<double>(std::min(points, kMostInBall));
-    return share * (1 + kCutOff * share * share) * (1 + kDeviationsBelow / std::sqrt(2 * counted));
-}
+/// Balls with no more than this times that spread tell whether it is all noise.
+constexpr double kNearQuantile = 1.4;
+
+/// Sheets that add a smaller share to the variance cannot be told from the shape of chance.
+constexpr double kLeastHidden = 0.33;
+constexpr double kMostHidden = 0.8;
+
+/// What the ball around a place of the shape says.
+struct Reading {
+    double noise = -1.0;  ///< [input length]; less than 0: nothing
+    Spread spread;
+};
 
 Eigen::Vector3d mean_of(const NearPoints& ball) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -151,44 +98,64 @@ Eigen::Vector3d mean_of(const NearPoints& ball) {
     return sum / static_cast<double>(ball.size);
 }
 
-/// The spread in the smallest ball around a place of the shape that is wide enough for it; less
-/// than 0 where none is: the point is alone, or all around it is thinner than it is rough.
-double noise_around(const PointGrid& grid, const Eigen::Vector3d& point, double radius,
-                    double largest, NearPoints& ball, std::vector<double>& heights) {
+/// The spread in the smallest ball around a place of the shape that is wide enough for it; nothing
+/// where none is: the point is alone, or all around it is thinner than it is rough.
+Reading noise_around(const PointGrid& grid, const Eigen::Vector3d& point, double radius,
+                     double largest, NearPoints& ball, std::vector<double>& heights) {
     double growth = kGrowth;
     for (int i = 0; i < kMostSteps && radius <= largest; ++i, radius *= growth) {
         growth = kGrowth;
         grid.gather(point, radius, 1.0F, ball);
         if (ball.size < kFewestForPlane) continue;
-        double wanted = kSigmasInBall * spread_off_plane(ball, heights);
+        double wanted = kSigmasInBall * spread_in(ball, heights).deviation;
         if (wanted <= kNearlyWide) {
             // The point is off the shape; the mean of those around it is nearer.
             grid.gather(point + radius * mean_of(ball), radius, 1.0F, ball);
             if (ball.size < kFewestForPlane) continue;
-            const double share = spread_off_plane(ball, heights);
-            wanted = kSigmasInBall * share;
-            if (wanted <= 1) return radius * undo_cuts(share, ball.size);
+            const Spread spread = spread_in(ball, heights);
+            wanted = kSigmasInBall * spread.deviation;
+            if (wanted <= 1) {
+                const double chance = 1 + kDeviationsBelow / std::sqrt(2 * spread.points);
+                return {radius * uncut_deviation(spread) * chance, spread};
+            }
         }
         growth = std::clamp(kShareOfStep * wanted, kGrowth, kMostGrowth);
     }
-    return -1.0;
+    return {};
+}
+
+/// How much of the variance is not noise but two sheets that it hides, by the shape of what lies
+/// off the plane: the kurtosis of noise is 3, that of two sheets with the share s is 3 - 2 s^2.
+double share_of_hidden_sheets(const std::vector<Reading>& readings, double deviation) {
+    double sum = 0.0;
+    double count = 0.0;
+    for (const Reading& reading : readings) {
+        if (reading.spread.is_parted || reading.noise > kNearQuantile * deviation) continue;
+        sum += reading.spread.kurtosis;
+        count += 1;
+    }
+    const double share = count > 0 ? std::sqrt(std::max(0.0, 3 - sum / count) / 2) : 0.0;
+    return share < kLeastHidden ? 0.0 : std::min(share, kMostHidden);
 }
 
 /// A low quantile over a sample of the points, each in a ball of its own.
 double noise_of(const Sampled& cloud, const PointGrid& grid, double radius, double largest,
                 const Execution& execution) {
     const std::vector<Eigen::Index> chosen = cloud.some(kNoiseSample);
-    std::vector<double> spreads(chosen.size(), -1.0);
+    std::vector<Reading> readings(chosen.size());
     parallel_for(execution, chosen.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
         NearPoints ball;
         std::vector<double> heights;
         for (std::size_t i = begin; i < end; ++i) {
-            spreads[i] =
+            readings[i] =
                 noise_around(grid, cloud.points.col(chosen[i]), radius, largest, ball, heights);
         }
     });
-    std::erase(spreads, -1.0);
-    return quantile(spreads, kQuantile);
+    std::erase_if(readings, [](const Reading& reading) { return reading.noise < 0; });
+    std::vector<double> deviations;
+    for (const Reading& reading : readings) deviations.push_back(reading.noise);
+    const double deviation = quantile(deviations, kQuantile);
+    return deviation * std::sqrt(1 - share_of_hidden_sheets(readings, deviation));
 }
 
 /// Distances of a point to those around it [input length].

@@ -4,12 +4,11 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <iterator>
 
-#include "api/codec/format.h"
 #include "core/base/error.h"
 #include "tests/paper/document.h"
 #include "tests/paper/experiments.h"
+#include "tests/support/scan_file.h"
 
 // lpf-paper: reruns the experiments of the paper and writes them down.
 
@@ -27,19 +26,9 @@ struct Command {
     Origin origin = {};
 };
 
-Shape read_mesh(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-    Document read = decode(std::as_bytes(std::span(bytes)));
-    if (!read.shape.is_mesh()) {
-        throw Error(ErrorCode::InvalidParameter, path + " holds no triangles; a mesh is needed.");
-    }
-    return std::move(read.shape);
-}
-
 Settings settings_of(const Command& command) {
     Settings settings{.execution = {.threads = command.origin.threads}, .size = command.size};
-    if (!command.fandisk.empty()) settings.fandisk = read_mesh(command.fandisk);
+    if (!command.fandisk.empty()) settings.fandisk = test::read_mesh(command.fandisk);
     if (!command.pictures.empty()) {
         fs::create_directories(command.pictures);
         settings.picture_folder = command.pictures;

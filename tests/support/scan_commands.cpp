@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <fstream>
 #include <functional>
-#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -12,6 +11,7 @@
 #include "core/shape/normals.h"
 #include "tests/support/mesh_shape.h"
 #include "tests/support/metrics.h"
+#include "tests/support/scan_file.h"
 #include "tests/support/scan_report.h"
 
 namespace lpf::test {
@@ -19,13 +19,6 @@ namespace {
 
 using json = nlohmann::ordered_json;  // the summary first, details after it
 using Distance = std::function<double(const Vector3d&)>;
-
-Document read_file(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) throw Error(ErrorCode::StorageFailure, "The file " + path + " cannot be read.");
-    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-    return decode(std::as_bytes(std::span(bytes)));
-}
 
 void write_points(const std::string& path, const Points& points) {
     Document document;
@@ -35,14 +28,6 @@ void write_points(const std::string& path, const Points& points) {
     std::ofstream file(path, std::ios::binary);
     file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     if (!file.flush()) throw Error(ErrorCode::StorageFailure, "Writing " + path + " failed.");
-}
-
-/// The shape of a file with triangles.
-TestShape shape_of_mesh(const std::string& path, const Sampling& sampling) {
-    const Document document = read_file(path);
-    if (document.shape.is_mesh()) return make_mesh_shape(document.shape, sampling);
-    throw Error(ErrorCode::InvalidParameter,
-                "The file " + path + " has no triangles. --mesh takes a mesh.", "mesh");
 }
 
 /// The distance function of a reference and the diagonal of what it measures to.
@@ -59,7 +44,7 @@ Target target_of(const TestShape& exact) {
 
 Target target_of(const Reference& reference) {
     if (!reference.shape.empty()) return target_of(make_shape(reference.shape, {.points = 1}));
-    const Document document = read_file(reference.file);
+    const Document document = read_scan(reference.file);
     if (document.shape.is_mesh()) return target_of(make_mesh_shape(document.shape, {.points = 1}));
     const Points& points = document.shape.cloud.points;
     return {CloudDistance(points), diagonal_of(points)};
@@ -134,7 +119,7 @@ View view_of(const Points& points, const RenderCommand& command) {
 json simulate(const SimulateCommand& command) {
     const auto make = [&](const Sampling& sampling) {
         return command.mesh.empty() ? make_shape(command.shape, sampling)
-                                    : shape_of_mesh(command.mesh, sampling);
+                                    : make_mesh_shape(read_mesh(command.mesh), sampling);
     };
     Sampling sampling = command.sampling;
     if (command.noise_percent > 0) {
@@ -161,7 +146,7 @@ json simulate(const SimulateCommand& command) {
 
 json measure_error(const ErrorCommand& command) {
     const Target target = target_of(command.reference);
-    const Document result = read_file(command.result);
+    const Document result = read_scan(command.result);
     const Points& points = result.shape.cloud.points;
     const ErrorStats stats = summarize(distances_of(points, target.distance));
     json report = to_json(stats, target.diagonal);
@@ -186,7 +171,7 @@ json render_files(const RenderCommand& command) {
     }
     std::vector<Scene> scenes;
     for (std::size_t i = 0; i < command.inputs.size(); ++i) {
-        const PointCloud cloud = read_file(command.inputs[i]).shape.cloud;
+        const PointCloud cloud = read_scan(command.inputs[i]).shape.cloud;
         scenes.push_back({cloud.points, estimate_normals(cloud.points, 16, {.threads = 2}),
                           colours_of(cloud, command, target),
                           i < command.labels.size() ? command.labels[i] : ""});

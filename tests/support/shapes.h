@@ -99,7 +99,11 @@ TestShape make_head(const Sampling& sampling);          ///< head_mesh(), diagon
 /// A frame of 1 x 1.8 around 24 tilted slats, all of them open sheets; diagonal 2.06.
 TestShape make_shutter(const Sampling& sampling);
 
-/// The names that make_shape knows: each function above without its make_.
+/// Ten bodies of 10 000 points each, with thin limbs, plates and holes; the noise is as large as
+/// the spacing of the points.
+std::vector<TestShape> make_small_bodies(std::uint64_t seed);
+
+/// The names that make_shape knows: each function of one shape above without its make_.
 const std::vector<std::string>& shape_names();
 
 /// @throws Error{InvalidParameter} for a name that is not in shape_names()

@@ -57,6 +57,12 @@ TEST(Measure, DensityRadiusHoldsAbout150Points) {
     EXPECT_NEAR(10000 / 4.0 * 3.14159 * radius * radius, 150, 15);
 }
 
+TEST(Measure, SheetsThatNoiseHidesAreNotTakenForNoise) {
+    const double noise = 0.02;
+    const Points plate = test::make_thin_plate({.points = 60000, .noise = noise}, 0.05).points;
+    EXPECT_NEAR(measure(plate, {}).noise, noise, 0.2 * noise);
+}
+
 TEST(Measure, ThicknessOfAPlateIsNotTakenForNoise) {
     // Two sheets four sigma apart: one plane through both is 2.2 sigma from the points.
     const Points points = test::make_thin_plate({.points = 20000, .noise = 0.02}, 0.08).points;

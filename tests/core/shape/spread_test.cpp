@@ -1,0 +1,72 @@
+#include "core/shape/spread.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/base/random.h"
+
+namespace lpf {
+namespace {
+
+/// A ball with noisy points of horizontal sheets at +-half_gap.
+NearPoints sheets_in_ball(int points, double noise, double half_gap) {
+    NearPoints ball;
+    ball.reserve(static_cast<std::size_t>(points));
+    Random random(9, 2);
+    while (ball.size < static_cast<std::size_t>(points)) {
+        const double x = random.uniform(-1, 1);
+        const double y = random.uniform(-1, 1);
+        const double z = (ball.size % 2 == 0 ? 1 : -1) * half_gap + noise * random.normal();
+        if (x * x + y * y + z * z > 1) continue;
+        ball.x[ball.size] = static_cast<float>(x);
+        ball.y[ball.size] = static_cast<float>(y);
+        ball.z[ball.size] = static_cast<float>(z);
+        ++ball.size;
+    }
+    return ball;
+}
+
+Spread spread_of(int points, double noise, double half_gap) {
+    std::vector<double> heights;
+    return spread_in(sheets_in_ball(points, noise, half_gap), heights);
+}
+
+TEST(Spread, IsTheNoiseOffAPlane) {
+    const Spread spread = spread_of(2500, 0.1, 0);
+    EXPECT_NEAR(spread.deviation, 0.1, 0.004);
+    EXPECT_NEAR(spread.kurtosis, 3.0, 0.25);
+    EXPECT_EQ(spread.points, 2500);
+    EXPECT_FALSE(spread.is_parted);
+}
+
+TEST(Spread, GivesBackWhatTheBallHasCutOff) {
+    const Spread wide = spread_of(2500, 0.25, 0);
+    EXPECT_LT(wide.deviation, 0.24);
+    EXPECT_NEAR(uncut_deviation(wide), 0.25, 0.01);
+}
+
+TEST(Spread, IsOffTheNearerOfTwoPlanesThatStandApart) {
+    const Spread spread = spread_of(2500, 0.05, 0.2);
+    EXPECT_TRUE(spread.is_parted);
+    EXPECT_NEAR(spread.deviation, 0.05, 0.003);
+}
+
+TEST(Spread, ShowsSheetsThatNoiseHidesByItsKurtosis) {
+    const Spread spread = spread_of(2500, 0.1, 0.1);
+    EXPECT_FALSE(spread.is_parted);
+    EXPECT_NEAR(spread.kurtosis, 3 - 2 * 0.25, 0.15) << "half of the variance is the sheets'";
+}
+
+TEST(Spread, OfManyPointsIsThatOfSomeOfThem) {
+    const Spread spread = spread_of(30000, 0.1, 0);
+    EXPECT_LT(spread.points, 3001);
+    EXPECT_NEAR(spread.deviation, 0.1, 0.004);
+}
+
+TEST(Spread, OfAFewPointsDoesNotTakeChanceForTwoPlanes) {
+    EXPECT_FALSE(spread_of(30, 0.1, 0).is_parted);
+}
+
+}  // namespace
+}  // namespace lpf
