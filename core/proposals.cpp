@@ -19,6 +19,7 @@ constexpr std::size_t kFieldsPerChunk = 32;
 constexpr double kCandidateStep = 0.9;
 constexpr double kCandidateStepOfSearch = 1.3;
 constexpr int kMostSubdivisions = 16;
+constexpr int kMostAround = 64;  // a tube
 
 /// A gap of so many local spacings belongs to the shape still.
 constexpr double kSupportSpacings = 1.2;
@@ -79,6 +80,29 @@ std::optional<Eigen::Vector3f> displace(const Pattern& pattern, const std::vecto
     }
     if (high - low > kLargestJump * pattern.step()) return std::nullopt;
     return value;
+}
+
+/// What leads to the shape from the middle of two sheets or the axis of a tube at (x, y); nothing
+/// but one zero where there is neither.
+/// @param apart distance of points around a tube, at most [radius]
+void ways_to_sheets(const Piece& piece, float x, float y, double apart,
+                    std::vector<Eigen::Vector3f>& ways) {
+    const float gap = piece.half_gap(x, y);
+    if (gap == 0) {
+        ways = {Eigen::Vector3f::Zero()};
+    } else if (!piece.is_tube()) {
+        ways = {{0, 0, gap}, {0, 0, -gap}};
+    } else {
+        ways.clear();
+        const double turn = 2 * std::numbers::pi;
+        const int sides = std::clamp(
+            static_cast<int>(std::ceil(turn * static_cast<double>(gap) / apart)), 2, kMostAround);
+        for (int k = 0; k < sides; ++k) {
+            const auto angle =
+                static_cast<float>(turn * k / sides + static_cast<double>(x) / apart);
+            ways.emplace_back(0.0F, gap * std::cos(angle), gap * std::sin(angle));
+        }
+    }
 }
 
 }  // namespace
@@ -168,6 +192,7 @@ void Proposer::move_places(std::uint32_t j, const Eigen::AlignedBox3d& box,
     const Frame& frame = fields_.frames[j];
     const Piece& piece = fields_.pieces[j];
     std::optional<Support> support;
+    std::vector<Eigen::Vector3f> ways;
     const auto is_supported = [&](const Eigen::Vector3f& p, const Eigen::Vector3f& on_piece) {
         if (params_.support <= 0) return true;
         if (!support) {
@@ -182,14 +207,14 @@ void Proposer::move_places(std::uint32_t j, const Eigen::AlignedBox3d& box,
         if (!p) continue;
         Eigen::Vector3f on_piece = *p + piece.shape(p->x(), p->y());
         if (piece.is_curve()) on_piece.y() -= place.at.y();
-        // Two sheets are proposed as one point each.
-        const Eigen::Vector3f gap(0, 0, piece.half_gap(p->x(), p->y()));
-        const Eigen::Vector3d above = frame.to_world(on_piece + gap);
-        const Eigen::Vector3d below = gap.z() > 0 ? frame.to_world(on_piece - gap) : above;
-        if (!box.contains(above) && !box.contains(below)) continue;
-        if (!is_supported(*p, on_piece)) continue;
-        if (box.contains(above)) proposals.points.push_back(above);
-        if (gap.z() > 0 && box.contains(below)) proposals.points.push_back(below);
+        ways_to_sheets(piece, p->x(), p->y(), spacing_ / frame.radius, ways);
+        std::optional<bool> is_on_shape;
+        for (const Eigen::Vector3f& way : ways) {
+            const Eigen::Vector3d point = frame.to_world(on_piece + way);
+            if (!box.contains(point)) continue;
+            if (!is_on_shape) is_on_shape = is_supported(*p, on_piece);
+            if (*is_on_shape) proposals.points.push_back(point);
+        }
     }
 }
 

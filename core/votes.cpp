@@ -133,6 +133,18 @@ private:
             cast(j, target, weights, moves, ballot);
             return;
         }
+        if (piece.is_tube()) {
+            // To the side of it that the points are on.
+            for (std::size_t i = 0; i < target.size; ++i) {
+                float y = target.y[i];
+                float z = target.z[i];
+                piece.to_nearer_sheet(target.x[i], 0.0F, y, z);
+                moves.y[i] += target.y[i] - y;
+                moves.z[i] += target.z[i] - z;
+            }
+            cast(j, target, weights, moves, ballot);
+            return;
+        }
         Arrows other = moves;
         for (std::size_t i = 0; i < target.size; ++i) {
             const float half_gap = piece.half_gap(target.x[i], target.y[i]);

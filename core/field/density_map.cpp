@@ -11,9 +11,9 @@ void DensityMap::count(const Piece& piece, const TargetArea& flattened, float re
     cells_.fill(0.0F);
     std::vector<float> is_member(flattened.size);
     for (std::size_t i = 0; i < flattened.size; ++i) {
-        const float y = flattened.y[i];
-        const float height = std::abs(flattened.z[i]) - piece.half_gap(flattened.x[i], y);
-        const float across = piece.is_curve() ? y : 0.0F;
+        float across = piece.is_curve() ? flattened.y[i] : 0.0F;
+        float height = flattened.z[i];
+        piece.to_nearer_sheet(flattened.x[i], flattened.y[i], across, height);
         is_member[i] = height * height + across * across <= reach * reach ? 1.0F : 0.0F;
     }
     raster_.add(flattened.x.data(), flattened.y.data(), is_member.data(), flattened.size, cells_);

@@ -27,11 +27,9 @@ void MisfitMap::measure(const Piece& piece, const TargetArea& flattened, const f
     std::vector<float> off_y(is_curve ? n : 0);
     std::vector<float> off_z(n);
     for (std::size_t i = 0; i < n; ++i) {
+        float y = is_curve ? flattened.y[i] : 0.0F;
         float z = flattened.z[i];
-        if (piece.sheets[0] != 0) {
-            z -= std::copysign(piece.half_gap(flattened.x[i], flattened.y[i]), z);
-        }
-        const float y = is_curve ? flattened.y[i] : 0.0F;
+        piece.to_nearer_sheet(flattened.x[i], flattened.y[i], y, z);
         is_member[i] = y * y + z * z <= limit ? 1.0F : 0.0F;
         off_z[i] = is_member[i] * (z - field_z[i]);
         if (is_curve) off_y[i] = is_member[i] * (y - field_y[i]);

@@ -11,6 +11,9 @@
 namespace lpf {
 namespace {
 
+/// Nearer to the axis of a tube than this, no direction leads to it [radius].
+constexpr float kOnAxis = 1e-6F;
+
 float height(const Piece& piece, float x, float y) {
     const float smooth = parabola(piece.coefficients, x, y);
     const Crease& crease = piece.crease;
@@ -48,14 +51,24 @@ float Piece::half_gap(float x, float y) const {
     return std::sqrt(std::max(0.0F, sheets[0] + sheets[1] * x + sheets[2] * y));
 }
 
-float Piece::squared_offset(float x, float y, float z) const {
-    if (is_curve()) {
-        const float dy = y - cubic(coefficients, x);
-        const float dz = z - cubic(coefficients + 4, x);
-        return dy * dy + dz * dz;
+void Piece::to_nearer_sheet(float x, float y0, float& y, float& z) const {
+    if (sheets[0] == 0) return;
+    if (!is_curve()) {
+        z -= std::copysign(half_gap(x, y0), z);
+        return;
     }
-    const float dz = std::abs(z - height(*this, x, y)) - half_gap(x, y);
-    return dz * dz;
+    const float radius = half_gap(x, 0);
+    const float distance = std::hypot(y, z);
+    const float left = distance > kOnAxis ? 1 - radius / distance : 0.0F;
+    y *= left;
+    z = distance > kOnAxis ? z * left : -radius;
+}
+
+float Piece::squared_offset(float x, float y, float z) const {
+    float dy = is_curve() ? y - cubic(coefficients, x) : 0.0F;
+    float dz = z - (is_curve() ? cubic(coefficients + 4, x) : height(*this, x, y));
+    to_nearer_sheet(x, y, dy, dz);
+    return dy * dy + dz * dz;
 }
 
 kernels::CreasedSurface creased_surface(const Piece& piece) {
@@ -120,14 +133,14 @@ void keep_members(const Piece& piece, float share, TargetArea& target) {
     const float across = piece.is_curve() ? 1.0F : 0.0F;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < target.size; ++i) {
-        const float y = across * target.y[i];
+        float y = target.y[i];
         float z = target.z[i];
-        if (piece.sheets[0] != 0) z -= std::copysign(piece.half_gap(target.x[i], target.y[i]), z);
+        piece.to_nearer_sheet(target.x[i], target.y[i], y, z);
         target.x[kept] = target.x[i];
-        target.y[kept] = target.y[i];
+        target.y[kept] = y;
         target.z[kept] = z;
         target.index[kept] = target.index[i];
-        kept += static_cast<std::size_t>(y * y + z * z <= limit);
+        kept += static_cast<std::size_t>(across * y * y + z * z <= limit);
     }
     target.size = kept;
 }

@@ -22,7 +22,7 @@ struct Crease {
 };
 
 /// The one part of the shape that an LPF is about: a parabolic surface, perhaps with a crease, two
-/// such surfaces at a small distance, or a cubic curve. What lies further off than noise carries is
+/// such surfaces at a small distance, a cubic curve, or a tube around one. What lies further off than noise carries is
 /// another part: the other side of a plate, a wire above a wall. Departs from the paper, where an
 /// LPF is about all points in its target area and its field starts from a plane.
 /// Lengths in units of the LPF's radius, relative to the centre of the target area.
@@ -36,7 +36,8 @@ struct Piece {
     /// Surface: height over (1, x, y, xx, xy, yy). Curve: y over (1, x, xx, xxx), then height.
     float coefficients[8] = {};
     Crease crease;
-    /// Two sheets: squared half of their distance over (1, x, y). One: the first value is 0.
+    /// Two sheets: squared half of their distance over (1, x, y). A tube: its squared radius over
+    /// (1, x). One sheet, or a curve: the first value is 0.
     float sheets[3] = {};
     float noise = 0.0F;          ///< standard deviation of the points off the shape
     float reach = 0.0F;          ///< points further off do not belong to the piece
@@ -54,8 +55,14 @@ struct Piece {
     /// Where the shape is: the mean without what noise adds to it.
     [[nodiscard]] Eigen::Vector3f shape(float x, float y) const;
 
-    /// Half the distance of two sheets at (x, y); 0 where there is one.
+    [[nodiscard]] bool is_tube() const { return is_curve() && sheets[0] != 0; }
+
+    /// Half the distance of two sheets at (x, y), or the radius of a tube; 0 where there is none.
     [[nodiscard]] float half_gap(float x, float y) const;
+
+    /// Takes from the offset (y, z) of a place over (x, y0) to the mean what leads to the nearer
+    /// sheet, or to the tube.
+    void to_nearer_sheet(float x, float y0, float& y, float& z) const;
 
     /// Squared distance of a place in the piece's axes to the mean of the nearer sheet, along n on
     /// a surface.

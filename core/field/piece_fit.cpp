@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "core/base/kernels.h"
@@ -116,13 +117,19 @@ struct Block {
 
 using Blocks = std::array<Block, kBlocks * kBlocks>;
 
-std::size_t block_of(const Piece& piece, float extent, float x, float y) {
+/// Blocks of a tube lie along it and around it: (y, z) is the offset from its axis.
+std::size_t block_of(const Piece& piece, float extent, float x, float y, float z) {
+    if (piece.is_tube()) {
+        constexpr float kHalfTurn = std::numbers::pi_v<float>;
+        return block_along(kHalfTurn, std::atan2(z, y), kBlocks) * kBlocks +
+               block_along(extent, x, kBlocks);
+    }
     if (piece.is_curve()) return block_along(extent, x, kCurveBlocks);
     return block_along(extent, y, kBlocks) * kBlocks + block_along(extent, x, kBlocks);
 }
 
 double unknowns_of(const Piece& piece) {
-    if (piece.is_curve()) return 8;
+    if (piece.is_curve()) return 8 + (piece.is_tube() ? 2 : 0);
     return 6 + (piece.crease.slope != 0 ? 3 : 0);
 }
 
@@ -147,14 +154,21 @@ std::size_t estimate_error(const PieceSample& sample, Piece& piece) {
         const float x = sample.x[i];
         const float y = sample.y[i];
         const Eigen::Vector3f mean = piece.mean(x, y);
-        const double dy = piece.is_curve() ? y - mean.y() : 0;
-        double dz = sample.z[i] - mean.z();
-        if (piece.sheets[0] != 0) dz -= std::copysign(piece.half_gap(x, y), dz);
-        Block& block = blocks[block_of(piece, sample.extent(), x, y)];
+        float dy = piece.is_curve() ? y - mean.y() : 0;
+        float dz = sample.z[i] - mean.z();
+        Block& block = blocks[block_of(piece, sample.extent(), x, piece.is_tube() ? dy : y, dz)];
+        if (piece.is_tube()) {
+            // Noise moves points outwards on average.
+            const float radius = piece.half_gap(x, 0);
+            dz = std::hypot(dy, dz) - std::hypot(radius, piece.noise);
+            dy = 0;
+        } else {
+            piece.to_nearer_sheet(x, y, dy, dz);
+        }
         block.points += 1;
         block.y += dy;
         block.z += dz;
-        block.squares += dy * dy + dz * dz;
+        block.squares += double{dy} * dy + double{dz} * dz;
     }
     const double unknowns = unknowns_of(piece);
     const auto n = static_cast<double>(members);
@@ -172,13 +186,15 @@ std::size_t estimate_error(const PieceSample& sample, Piece& piece) {
         between += of_means;
         within += block.squares - of_means;
     }
-    const double directions = piece.is_curve() ? 2 : 1;
+    const double directions = piece.is_curve() && !piece.is_tube() ? 2 : 1;
     const double variance = n > used + 8 ? within / (n - used) / directions
                                          : static_cast<double>(piece.noise) * piece.noise;
     const double by_noise = std::max(0.0, used * directions - unknowns) * variance;
     const double across = 1 / (static_cast<double>(piece.steepness) * piece.steepness);
     const double bias = across * std::max(0.0, between - by_noise) / n;
-    const double fit = across * unknowns * variance / n / static_cast<double>(sample.stride());
+    // The axis of a tube is fitted to points that scatter about it by its radius, too.
+    const double scatter = variance + (piece.is_tube() ? double{piece.sheets[0]} / 2 : 0);
+    const double fit = across * unknowns * scatter / n / static_cast<double>(sample.stride());
     piece.squared_bias = static_cast<float>(bias);
     piece.squared_error = static_cast<float>(bias + fit);
     return members;

@@ -7,6 +7,7 @@
 #include "core/field/curve_search.h"
 #include "core/field/piece_fit.h"
 #include "core/field/sheet_split.h"
+#include "core/field/tube_fit.h"
 
 namespace lpf {
 namespace {
@@ -51,6 +52,7 @@ Piece PieceGrower::grow(const TargetArea& target, float noise, float extent) {
     }
     if (!piece.exists()) return piece;
     follow_crossing_curve(sample_, kSigmasOffCurve, piece);
+    widen_to_tube(sample_, kSigmasOffSurface, piece);
     fold_at_crease(sample_, kSigmasOffSurface, piece);
     split_sheets(sample_, kSigmasOffSurface, piece);
     return piece;

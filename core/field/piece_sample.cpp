@@ -66,7 +66,7 @@ void PieceSample::look_along(const Piece& piece, std::size_t count) {
 
 void PieceSample::measure(const Piece& piece, std::size_t count) {
     float* out = squared_offset.data();
-    if (piece.is_curve()) {
+    if (piece.is_curve() && piece.sheets[0] == 0) {
         kernels::offsets_from_cubics(piece.coefficients, x.data(), y.data(), z.data(), count, out);
     } else if (piece.sheets[0] == 0 && piece.crease.slope == 0) {
         kernels::offsets_from_parabola(piece.coefficients, x.data(), y.data(), z.data(), count,

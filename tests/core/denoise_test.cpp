@@ -11,6 +11,7 @@
 #include "tests/core/clouds.h"
 #include "tests/support/metrics.h"
 #include "tests/support/shapes.h"
+#include "tests/support/solids.h"
 
 namespace lpf {
 namespace {
@@ -144,6 +145,20 @@ TEST(Denoise, DuplicatesDoNotTearApart) {
     const Points result = denoised(plane.replicate(1, 2), noise_aware(0.3));
     ASSERT_TRUE(result.allFinite());
     EXPECT_LT((result.leftCols(1500) - result.rightCols(1500)).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(Denoise, KeepsTheThicknessOfRodsThatNoiseHides) {
+    const double noise = 0.02;
+    const test::PiecePtr rod =
+        test::union_surface({test::capsule({-1, 0, 0}, {1, 0.3, 0}, 2 * noise)});
+    const auto scan = test::sampled({"rod", {rod}}, {.points = 1500, .noise = noise, .seed = 3});
+    DenoiseParams params = noise_aware(0.2);
+    params.analysis.noise = noise;
+    params.iterations = 1;
+    const Points points = denoised(scan.points, params);
+    EXPECT_LT(test::error_to_shape(points, scan).rmse, 0.35 * noise);
+    const auto covered = test::coverage_of_shape(scan, points, 2000);
+    EXPECT_LT(covered.surface, test::coverage_of_shape(scan, scan.points, 2000).surface);
 }
 
 TEST(Denoise, SharpVotingKeepsEdgesBetter) {

@@ -10,7 +10,9 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "tests/support/metrics.h"
 #include "tests/support/shapes.h"
+#include "tests/support/solids.h"
 
 namespace lpf {
 namespace {
@@ -247,6 +249,29 @@ TEST(Proposals, OfAPieceThatBendsAwayFromItsPointsStayNearThem) {
     const Candidates all = propose_all(fields, analysis, params, params.target_spacing);
     ASSERT_GT(all.size(), fields.size());
     EXPECT_LT(all.points.row(2).cwiseAbs().maxCoeff(), 2 * params.support);
+}
+
+TEST(Proposals, OfATubeLieAllAroundIt) {
+    const double noise = 0.02;
+    const double thickness = 2 * noise;
+    const test::PiecePtr rod =
+        test::union_surface({test::capsule({-1, 0, 0}, {1, 0, 0}, thickness)});
+    const auto scan = test::sampled({"rod", {rod}}, {.points = 3000, .noise = noise, .seed = 3});
+    const Shape shape{{scan.points, {}}, {}};
+    ResampleParams params;
+    params.analysis.radius = 0.25;
+    params.analysis.noise = noise;
+    params.analysis.probing = ProbingKind::NoiseAware;
+    params.analysis.iterations = 1;
+    params.analysis.atoms = 4;
+    params.target_spacing = 0.02;
+    params.support = 0.05;
+    FieldSet fields(shape, params.analysis, {});
+    fields.optimise_poses(params.analysis.pose_iterations, {});
+    const AnalysisResult analysis = analyze(fields, params.analysis, {});
+    const Candidates all = propose_all(fields, analysis, params, params.target_spacing);
+    EXPECT_LT(test::error_to_shape(all.points, scan).rmse, 0.4 * noise);
+    EXPECT_LT(test::coverage_of_shape(scan, all.points, 2000).surface, params.target_spacing);
 }
 
 }  // namespace
