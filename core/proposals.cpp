@@ -21,6 +21,10 @@ constexpr double kCandidateStepOfSearch = 1.3;
 constexpr int kMostSubdivisions = 16;
 constexpr int kMostAround = 64;  // a tube
 
+/// Of fewer points, a piece is made by chance.
+constexpr std::size_t kFewestOnCurve = 12;
+constexpr std::size_t kFewestOnSurface = 24;
+
 /// A gap of so many local spacings belongs to the shape still.
 constexpr double kSupportSpacings = 1.2;
 
@@ -160,13 +164,12 @@ Candidates Proposer::propose(std::span<const std::uint32_t> numbers, const Eigen
 
 void Proposer::propose(std::uint32_t j, const Eigen::AlignedBox3d& box, FieldSet::Worker& worker,
                        Proposals& proposals) const {
-    if (fields_.dimensions[j] == kTooFewPoints) {
-        // It knows no field: it proposes the points themselves, so that nothing sparse is lost.
-        TargetArea& target = worker.probe.target;
-        fields_.gather(j, target);
+    TargetArea& target = worker.probe.target;
+    fields_.gather(j, target);
+    if (!knows_field(j, target)) {
+        // It proposes the points themselves, so that nothing sparse is lost.
         for (std::size_t i = 0; i < target.size; ++i) {
-            const Eigen::Vector3d point =
-                fields_.frames[j].to_world({target.x[i], target.y[i], target.z[i]});
+            const Eigen::Vector3d point = fields_.grid().point(target.index[i]);
             if (box.contains(point)) proposals.points.push_back(point);
         }
     } else {
@@ -174,6 +177,15 @@ void Proposer::propose(std::uint32_t j, const Eigen::AlignedBox3d& box, FieldSet
         move_places(j, box, worker, proposals);
     }
     proposals.field.resize(proposals.points.size(), j);
+}
+
+/// Whether the field of an LPF says more than its points do.
+/// @param target what is gathered of the shape
+bool Proposer::knows_field(std::uint32_t j, const TargetArea& target) const {
+    if (fields_.dimensions[j] == kTooFewPoints) return false;
+    const Piece& piece = fields_.pieces[j];
+    if (!piece.exists()) return true;
+    return target.size >= (piece.is_curve() ? kFewestOnCurve : kFewestOnSurface);
 }
 
 /// Leaves the field that the points are read from in `worker.decoded`.
@@ -185,6 +197,7 @@ void Proposer::reconstruct(std::uint32_t j, FieldSet::Worker& worker) const {
         worker.decoded[i] +=
             static_cast<float>(params_.detail) * (worker.field[i] - worker.decoded[i]);
     }
+    fields_.gather(j, worker.probe.target);  // probing has worked on it
 }
 
 void Proposer::move_places(std::uint32_t j, const Eigen::AlignedBox3d& box,
@@ -196,7 +209,6 @@ void Proposer::move_places(std::uint32_t j, const Eigen::AlignedBox3d& box,
     const auto is_supported = [&](const Eigen::Vector3f& p, const Eigen::Vector3f& on_piece) {
         if (params_.support <= 0) return true;
         if (!support) {
-            fields_.gather(j, worker.probe.target);
             support.emplace(piece, worker.probe.target,
                             support_distance(worker.probe.target, frame.radius));
         }

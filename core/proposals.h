@@ -44,6 +44,7 @@ private:
                  Proposals& proposals) const;
     void move_places(std::uint32_t j, const Eigen::AlignedBox3d& box, FieldSet::Worker& worker,
                      Proposals& proposals) const;
+    [[nodiscard]] bool knows_field(std::uint32_t j, const TargetArea& target) const;
     void reconstruct(std::uint32_t j, FieldSet::Worker& worker) const;
     [[nodiscard]] float support_distance(const TargetArea& target, double radius) const;
 

@@ -12,7 +12,7 @@ namespace {
 
 /// Beyond a straight border, the unit vectors to the points near by sum up to this share of their
 /// number or more; among points they cancel out.
-constexpr float kOneSided = 0.75F;
+constexpr float kOneSided = 0.7F;
 
 /// A place so near a point needs no others around it [support distances].
 constexpr float kVeryNear = 0.25F;

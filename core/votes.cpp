@@ -86,9 +86,11 @@ public:
 private:
     /// A vector for each point of a target area.
     struct Arrows {
-        std::vector<float> x, y, z;
-        explicit Arrows(std::size_t n) : x(n), y(n), z(n) {}
-        [[nodiscard]] std::size_t size() const { return x.size(); }
+        Eigen::ArrayXf x, y, z;  // not zeroed first
+        explicit Arrows(std::size_t n) {
+            for (auto* values : {&x, &y, &z}) values->resize(static_cast<Eigen::Index>(n));
+        }
+        [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(x.size()); }
     };
 
     [[nodiscard]] float size_of(std::size_t j) const {
@@ -128,7 +130,7 @@ private:
             misfits_[j].measure(piece, target, field.y.data(), field.z.data());
         }
         Arrows moves = wanted_moves(piece, target, std::move(field));
-        const std::vector<float> weights = weights_by_place(j, target);
+        const Eigen::ArrayXf weights = weights_by_place(j, target);
         if (piece.sheets[0] == 0) {
             cast(j, target, weights, moves, ballot);
             return;
@@ -175,8 +177,8 @@ private:
         const std::size_t n = target.size;
         if (before_ && piece.dimension == kSurface) {
             // Once is enough for what pulls points from beyond a border.
-            std::ranges::fill(field.x, 0.0F);
-            std::ranges::fill(field.y, 0.0F);
+            field.x.setZero();
+            field.y.setZero();
         }
         Arrows moves = field;
         add_mean_change(piece, 1.0F, x, y, field.x.data(), field.y.data(), n, moves.y.data(),
@@ -189,27 +191,23 @@ private:
 
     /// What the LPF says at each point counts as much as its own points are dense there, and less
     /// where it does not suit them.
-    [[nodiscard]] std::vector<float> weights_by_place(std::size_t j,
-                                                      const TargetArea& target) const {
+    [[nodiscard]] Eigen::ArrayXf weights_by_place(std::size_t j, const TargetArea& target) const {
         const Piece& piece = fields_.pieces[j];
         const std::size_t n = target.size;
-        std::vector<float> weights(n, 1.0F);
-        if (!piece.exists()) return weights;
+        if (!piece.exists()) return Eigen::ArrayXf::Ones(static_cast<Eigen::Index>(n));
+        Eigen::ArrayXf weights(n);
         DensityMap density;
         density.count(piece, target, kSigmasOfDensity * piece.noise);
         density.read(target.x.data(), target.y.data(), n, weights.data());
-        std::vector<float> misfit(n);
+        Eigen::ArrayXf misfit(n);
         misfits_[j].read(target.x.data(), target.y.data(), n, misfit.data());
         const float size = size_of(j);
         const float error = error_off_misfits(piece) + kErrorFloor / (size * size);
-        for (std::size_t i = 0; i < n; ++i) {
-            weights[i] = std::min(weights[i], 1.0F) * error / (error + misfit[i]);
-        }
-        return weights;
+        return weights.min(1.0F) * error / (error + misfit);
     }
 
     /// @param weights by place
-    void cast(std::size_t j, const TargetArea& target, std::vector<float> weights, Arrows& moves,
+    void cast(std::size_t j, const TargetArea& target, Eigen::ArrayXf weights, Arrows& moves,
               Ballot& ballot) const {
         const float size = size_of(j);
         const float sigma = width_ * fields_.pieces[j].steepness / size;
@@ -221,7 +219,7 @@ private:
                        moves.z.data(), target.size, weights.data());
         rotate(size * fields_.frames[j].axes, moves);
         ballot.cast({.point = {target.index.data(), target.size},
-                     .weight = weights,
+                     .weight = {weights.data(), target.size},
                      .move = {moves.x.data(), moves.y.data(), moves.z.data()}});
     }
 

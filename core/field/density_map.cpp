@@ -1,15 +1,15 @@
 #include "core/field/density_map.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace lpf {
 
 void DensityMap::count(const Piece& piece, const TargetArea& flattened, float reach) {
     raster_ = DiskRaster(piece.is_curve());
     cells_.fill(0.0F);
-    std::vector<float> is_member(flattened.size);
+    Eigen::ArrayXf is_member(flattened.size);
     for (std::size_t i = 0; i < flattened.size; ++i) {
         float across = piece.is_curve() ? flattened.y[i] : 0.0F;
         float height = flattened.z[i];

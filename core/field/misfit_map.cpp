@@ -1,8 +1,8 @@
 #include "core/field/misfit_map.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace lpf {
 namespace {
@@ -23,9 +23,9 @@ void MisfitMap::measure(const Piece& piece, const TargetArea& flattened, const f
     raster_ = DiskRaster(is_curve);
     const std::size_t n = flattened.size;
     const float limit = piece.reach * piece.reach;
-    std::vector<float> is_member(n);
-    std::vector<float> off_y(is_curve ? n : 0);
-    std::vector<float> off_z(n);
+    Eigen::ArrayXf is_member(n);
+    Eigen::ArrayXf off_y(is_curve ? n : 0);
+    Eigen::ArrayXf off_z(n);
     for (std::size_t i = 0; i < n; ++i) {
         float y = is_curve ? flattened.y[i] : 0.0F;
         float z = flattened.z[i];
@@ -34,9 +34,10 @@ void MisfitMap::measure(const Piece& piece, const TargetArea& flattened, const f
         off_z[i] = is_member[i] * (z - field_z[i]);
         if (is_curve) off_y[i] = is_member[i] * (y - field_y[i]);
     }
-    const auto total = [&](const std::vector<float>& values) {
+    const auto total = [&](const Eigen::ArrayXf& values) {
         DiskRaster::Values sums{};
-        raster_.add(flattened.x.data(), flattened.y.data(), values.data(), values.size(), sums);
+        raster_.add(flattened.x.data(), flattened.y.data(), values.data(),
+                    static_cast<std::size_t>(values.size()), sums);
         return sums;
     };
     const DiskRaster::Values points = total(is_member);

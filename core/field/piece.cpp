@@ -51,8 +51,7 @@ float Piece::half_gap(float x, float y) const {
     return std::sqrt(std::max(0.0F, sheets[0] + sheets[1] * x + sheets[2] * y));
 }
 
-void Piece::to_nearer_sheet(float x, float y0, float& y, float& z) const {
-    if (sheets[0] == 0) return;
+void Piece::take_off_sheet(float x, float y0, float& y, float& z) const {
     if (!is_curve()) {
         z -= std::copysign(half_gap(x, y0), z);
         return;

@@ -22,10 +22,10 @@ struct Crease {
 };
 
 /// The one part of the shape that an LPF is about: a parabolic surface, perhaps with a crease, two
-/// such surfaces at a small distance, a cubic curve, or a tube around one. What lies further off than noise carries is
-/// another part: the other side of a plate, a wire above a wall. Departs from the paper, where an
-/// LPF is about all points in its target area and its field starts from a plane.
-/// Lengths in units of the LPF's radius, relative to the centre of the target area.
+/// such surfaces at a small distance, a cubic curve, or a tube around one. What lies further off
+/// than noise carries is another part: the other side of a plate, a wire above a wall. Departs from
+/// the paper, where an LPF is about all points in its target area and its field starts from a
+/// plane. Lengths in units of the LPF's radius, relative to the centre of the target area.
 ///
 /// Isotropic noise blurs what bends: points near an edge lie inside of it on average. A piece
 /// therefore knows both where the noisy points lie, `mean`, and where the shape is, `shape`.
@@ -62,11 +62,16 @@ struct Piece {
 
     /// Takes from the offset (y, z) of a place over (x, y0) to the mean what leads to the nearer
     /// sheet, or to the tube.
-    void to_nearer_sheet(float x, float y0, float& y, float& z) const;
+    void to_nearer_sheet(float x, float y0, float& y, float& z) const {
+        if (sheets[0] != 0) take_off_sheet(x, y0, y, z);
+    }
 
     /// Squared distance of a place in the piece's axes to the mean of the nearer sheet, along n on
     /// a surface.
     [[nodiscard]] float squared_offset(float x, float y, float z) const;
+
+private:
+    void take_off_sheet(float x, float y0, float& y, float& z) const;
 };
 
 /// A surface with a crease, for kernels.

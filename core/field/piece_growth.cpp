@@ -36,6 +36,12 @@ constexpr double kMostBesideCurve = 1.5;
 /// More points than this add nothing that a piece could tell.
 constexpr std::size_t kMostPoints = 3000;
 
+std::size_t count_members(const PieceSample& sample, const Piece& piece) {
+    std::size_t members = 0;
+    for (std::size_t i = 0; i < sample.size(); ++i) members += sample.is_member(piece, i);
+    return members;
+}
+
 }  // namespace
 
 Piece PieceGrower::grow(const TargetArea& target, float noise, float extent) {
@@ -64,7 +70,7 @@ Piece PieceGrower::grow_as(Dimension dimension, float noise) {
     piece.dimension = dimension;
     piece.noise = noise;
     if (!grow_through_balls(piece)) return {};
-    for (int round = 0; round < 2; ++round) {
+    for (int round = 0; round < 2 && count_members(sample_, piece) >= kPointsOfBend; ++round) {
         fit_smooth(sample_, sample_.size(), piece);
         sample_.measure(piece, sample_.size());
     }

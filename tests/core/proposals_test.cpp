@@ -161,8 +161,8 @@ std::vector<std::size_t> ProposalsOf::supported(const Candidates& all, double sp
             const double one_sided = around > 0 ? directions.norm() / around : 1.0;
             near_the_limit += std::abs(least - limit) < 1e-4 ||
                               std::abs(least - limit / 4) < 1e-4 ||
-                              std::abs(one_sided - 0.75) < 1e-2;
-            expected[j] += least <= limit && (least <= limit / 4 || one_sided < 0.75);
+                              std::abs(one_sided - 0.7) < 1e-2;
+            expected[j] += least <= limit && (least <= limit / 4 || one_sided < 0.7);
         }
     });
     return expected;

@@ -7,6 +7,7 @@
 #include <set>
 #include <stop_token>
 
+#include "core/auto_parameters.h"
 #include "core/base/error.h"
 #include "tests/core/clouds.h"
 #include "tests/support/meshes.h"
@@ -185,6 +186,22 @@ TEST(Resample, DenoisesFirstWhereAskedTo) {
     params.denoise->analysis = params.analysis;
     params.denoise->analysis.probing = ProbingKind::NoiseAware;
     EXPECT_LT(1.3 * error(), raw);
+}
+
+TEST(Resample, PutsHardlyAPointInTheAirBesideEdges) {
+    const double noise = 0.01;
+    const auto cube = test::make_cube({.points = 20000, .noise = noise, .seed = 5});
+    const Shape shape = cloud_of(cube.points);
+    ParameterRequest request;
+    request.factor = 4;
+    const Measurements measured = measure(cube.points, {.threads = 2});
+    const auto params = resolve_parameters(Task::Resample, shape, measured, request).resample;
+    const ResampleResult result = resample(shape, params, {.threads = 2});
+    int far = 0;
+    for (Eigen::Index i = 0; i < result.points.cols(); ++i) {
+        far += cube.distance(result.points.col(i)) > result.spacing;
+    }
+    EXPECT_LT(far, 0.003 * static_cast<double>(result.points.cols()));
 }
 
 TEST(Resample, OfAMeshLiesOnItsTriangles) {
