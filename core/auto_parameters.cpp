@@ -12,6 +12,10 @@ namespace {
 /// Points in the ball of Measurements::density_radius.
 constexpr double kPointsInDensityBall = 150.0;
 
+/// An exact cloud is resampled as if it had this much noise [radius]: with none at all, LPFs would
+/// not look for their pieces.
+constexpr double kLeastNoise = 1e-6;
+
 /// A radius of fewer sigma cuts the noise off; one of many more costs curves and thin parts.
 constexpr double kSigmasInRadius = 3.0;
 
@@ -172,7 +176,7 @@ private:
         r.denoise = DenoiseParams{};
         r.denoise->analysis = result_.analysis;
         r.denoise->analysis.iterations = 1;
-        r.analysis.noise = kNoiseLeft * m_.noise;
+        r.analysis.noise = std::max(kNoiseLeft * m_.noise, kLeastNoise * result_.analysis.radius);
         r.denoise->iterations = auto_denoise_iterations().value;
     }
 

@@ -23,7 +23,7 @@ constexpr int kMostAround = 64;  // a tube
 
 /// Of fewer points, a piece is made by chance.
 constexpr std::size_t kFewestOnCurve = 12;
-constexpr std::size_t kFewestOnSurface = 24;
+constexpr std::size_t kFewestOnSurface = 16;
 
 /// A gap of so many local spacings belongs to the shape still.
 constexpr double kSupportSpacings = 1.2;

@@ -25,8 +25,9 @@ constexpr float kSigmasInFirstBall = 3.5F;
 constexpr float kPointsInFirstBall = 24.0F;
 constexpr float kGrowth = 1.4F;
 
-/// Fewer points show a direction but no bend.
+/// Fewer points show a direction but no bend: while a piece grows, and in the end.
 constexpr std::size_t kPointsOfBend = 24;
+constexpr std::size_t kFewestOfBend = 12;
 
 /// A first ball that few points rather than noise make as wide may look like a curve by chance. A
 /// tube twice as thick as a curve holds less than this times its members, as a strip of a sheet
@@ -70,7 +71,7 @@ Piece PieceGrower::grow_as(Dimension dimension, float noise) {
     piece.dimension = dimension;
     piece.noise = noise;
     if (!grow_through_balls(piece)) return {};
-    for (int round = 0; round < 2 && count_members(sample_, piece) >= kPointsOfBend; ++round) {
+    for (int round = 0; round < 2 && count_members(sample_, piece) >= kFewestOfBend; ++round) {
         fit_smooth(sample_, sample_.size(), piece);
         sample_.measure(piece, sample_.size());
     }

@@ -21,6 +21,9 @@ constexpr double kLeastNoiseToAverage = 0.03;
 /// Errors are estimates: a larger LPF may promise so much more squared error than a smaller one.
 constexpr double kTolerance = 1.25;
 
+/// Less squared error is none [squared radius]: of two exact pieces, rounding is not to choose.
+constexpr double kExact = 1e-8;
+
 /// Seeds of each size are placed in this many rounds, each where those before left points.
 constexpr int kRounds = 2;
 
@@ -208,7 +211,8 @@ private:
         if (!smaller.exists()) return true;
         if (piece.is_curve() && !smaller.is_curve()) return true;  // as noise is near, it is thick
         return static_cast<double>(piece.squared_error) <=
-               kTolerance * ratio * ratio * static_cast<double>(smaller.squared_error);
+               std::max(kExact,
+                        kTolerance * ratio * ratio * static_cast<double>(smaller.squared_error));
     }
 
     void gather(const Frame& frame, TargetArea& target) const {

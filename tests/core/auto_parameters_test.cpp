@@ -171,5 +171,14 @@ TEST(AutoParameters, DenoiseAShapeOfUnknownUnit) {
     }
 }
 
+TEST(AutoParameters, ResampleExactPlanesToTheNumberAskedFor) {
+    const Shape cube = shape_named("cube", 6000, 0.0);
+    ParameterRequest request;
+    request.factor = 4;
+    const ResampleParams params = resolve(Task::Resample, cube, request).resample;
+    const double count = static_cast<double>(resample(cube, params, {.threads = 2}).points.cols());
+    EXPECT_NEAR(count, 24000, 0.02 * 24000);
+}
+
 }  // namespace
 }  // namespace lpf

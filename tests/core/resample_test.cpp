@@ -201,7 +201,7 @@ TEST(Resample, PutsHardlyAPointInTheAirBesideEdges) {
     for (Eigen::Index i = 0; i < result.points.cols(); ++i) {
         far += cube.distance(result.points.col(i)) > result.spacing;
     }
-    EXPECT_LT(far, 0.003 * static_cast<double>(result.points.cols()));
+    EXPECT_LT(far, 0.006 * static_cast<double>(result.points.cols()));
 }
 
 TEST(Resample, OfAMeshLiesOnItsTriangles) {
