@@ -82,12 +82,8 @@ Piece PieceGrower::grow_as(Dimension dimension, float noise) {
 bool PieceGrower::is_strip(const Piece& curve) const {
     Piece thick = curve;
     thick.reach *= 2;
-    double members = 0;
-    double in_tube = 0;
-    for (std::size_t i = 0; i < sample_.size(); ++i) {
-        members += sample_.is_member(curve, i);
-        in_tube += sample_.is_member(thick, i);
-    }
+    const auto members = static_cast<double>(count_members(sample_, curve));
+    const auto in_tube = static_cast<double>(count_members(sample_, thick));
     return in_tube > kMostBesideCurve * members;
 }
 

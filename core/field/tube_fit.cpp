@@ -79,7 +79,6 @@ std::optional<Piece> tube(PieceSample& sample, float sigmas, Piece piece) {
     piece.reach = kSigmasOfSearch * piece.noise;
     Scatter found;
     for (int round = 0; round < kRounds; ++round) {
-        sample.measure(piece, sample.size());
         fit_smooth(sample, sample.size(), piece);
         sample.measure(piece, sample.size());
         const std::optional<Scatter> now = scatter(sample, piece);
