@@ -201,14 +201,6 @@ bool has_both_sides(const PieceSample& sample, const Piece& piece) {
     return std::min(beyond, all - beyond) >= kLeastOnEachSide * all;
 }
 
-std::size_t count_members(const PieceSample& sample, const Piece& piece) {
-    std::size_t members = 0;
-    for (std::size_t i = 0; i < sample.size(); ++i) {
-        members += static_cast<std::size_t>(sample.is_member(piece, i));
-    }
-    return members;
-}
-
 /// A surface with a crease over the mean plane of all points of the target area.
 std::optional<Piece> creased(PieceSample& sample, TargetArea all, const Piece& smooth,
                              float sigmas) {
@@ -237,7 +229,7 @@ std::optional<Piece> creased(PieceSample& sample, TargetArea all, const Piece& s
 void fold_at_crease(PieceSample& sample, float sigmas, Piece& piece) {
     if (piece.is_curve()) return;
     if (piece.squared_bias <= kLeastBias * (piece.squared_error - piece.squared_bias)) return;
-    const auto before = static_cast<double>(count_members(sample, piece));
+    const auto before = static_cast<double>(sample.count_members(piece));
     TargetArea all;
     all.x = sample.px;
     all.y = sample.py;

@@ -37,12 +37,6 @@ constexpr double kMostBesideCurve = 1.5;
 /// More points than this add nothing that a piece could tell.
 constexpr std::size_t kMostPoints = 3000;
 
-std::size_t count_members(const PieceSample& sample, const Piece& piece) {
-    std::size_t members = 0;
-    for (std::size_t i = 0; i < sample.size(); ++i) members += sample.is_member(piece, i);
-    return members;
-}
-
 }  // namespace
 
 Piece PieceGrower::grow(const TargetArea& target, float noise, float extent) {
@@ -71,7 +65,7 @@ Piece PieceGrower::grow_as(Dimension dimension, float noise) {
     piece.dimension = dimension;
     piece.noise = noise;
     if (!grow_through_balls(piece)) return {};
-    for (int round = 0; round < 2 && count_members(sample_, piece) >= kFewestOfBend; ++round) {
+    for (int round = 0; round < 2 && sample_.count_members(piece) >= kFewestOfBend; ++round) {
         fit_smooth(sample_, sample_.size(), piece);
         sample_.measure(piece, sample_.size());
     }
@@ -82,8 +76,8 @@ Piece PieceGrower::grow_as(Dimension dimension, float noise) {
 bool PieceGrower::is_strip(const Piece& curve) const {
     Piece thick = curve;
     thick.reach *= 2;
-    const auto members = static_cast<double>(count_members(sample_, curve));
-    const auto in_tube = static_cast<double>(count_members(sample_, thick));
+    const auto members = static_cast<double>(sample_.count_members(curve));
+    const auto in_tube = static_cast<double>(sample_.count_members(thick));
     return in_tube > kMostBesideCurve * members;
 }
 

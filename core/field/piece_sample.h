@@ -40,6 +40,7 @@ public:
     [[nodiscard]] bool is_member(const Piece& piece, std::size_t i) const {
         return squared_offset[i] <= piece.reach * piece.reach;
     }
+    [[nodiscard]] std::size_t count_members(const Piece& piece) const;
 
     std::vector<float> px, py, pz;        ///< relative to the centre
     std::vector<float> squared_distance;  ///< to the centre
