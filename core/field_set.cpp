@@ -129,8 +129,8 @@ void FieldSet::gather(std::size_t j, TargetArea& target) const {
     keep_members(pieces[j], 1.0F, target);
 }
 
-void FieldSet::gather_ball(std::size_t j, TargetArea& target) const {
-    grid_.gather(frames[j].centre, frames[j].radius, target_radius_, target);
+void FieldSet::gather_ball(std::size_t j, const PointGrid& grid, TargetArea& target) const {
+    grid.gather(frames[j].centre, frames[j].radius, target_radius_, target);
     target.to_frame(frames[j]);
     flatten(pieces[j], target);
 }

@@ -49,6 +49,10 @@ public:
     void gather(std::size_t j, TargetArea& target) const;
     void probe(std::size_t j, ProbeScratch& scratch, float* field) const;
 
+    /// All points of the shape in the target area of one, flattened; and those of another cloud.
+    void gather_ball(std::size_t j, TargetArea& target) const { gather_ball(j, grid_, target); }
+    void gather_ball(std::size_t j, const PointGrid& grid, TargetArea& target) const;
+
     /// LPFs that are worked on together, `count` of them, freshly probed.
     struct Block {
         std::array<std::size_t, kFieldsOfBlock> number;  ///< of each in the set
@@ -113,7 +117,6 @@ public:
 private:
     void place(const Points& targets, const AnalysisParams& params, const Region& region,
                const Execution& execution);
-    void gather_ball(std::size_t j, TargetArea& target) const;
     using Gather = void (FieldSet::*)(std::size_t j, TargetArea& target) const;
     void for_each_gathered(std::string_view phase, const Execution& execution, const Body& body,
                            Gather gather_points) const;

@@ -36,8 +36,10 @@ constexpr float kCareOffCurves = 1.3F;
 /// A sheet of which less is left than this, when what lies on curves is taken away, is none.
 constexpr double kLeastShareOffCurves = 0.3;
 
-/// An LPF of so many points is large enough: a larger one could hardly average better.
+/// An LPF of so many points, and so many sigma, is large enough: a larger one could hardly average
+/// better.
 constexpr std::size_t kEnoughPoints = 4000;
+constexpr double kEnoughSigmas = 3.5;
 
 /// More bias makes a misfit [sigma], kept only where it alone takes care of this share of its
 /// points.
@@ -190,7 +192,7 @@ private:
         smaller.radius *= trial.smaller;
         if (trial.smaller > 0) {
             gather(smaller, target);
-            if (target.size > kEnoughPoints) return seed;
+            if (is_enough(smaller.radius, target.size)) return seed;
         }
         seed.piece = grow(seed.frame, target, grower);
         if (trial.smaller > 0) {
@@ -199,6 +201,10 @@ private:
             seed.fits = trial.last_chance || explains_its_points(seed.piece);
         }
         return seed;
+    }
+
+    [[nodiscard]] bool is_enough(double radius, std::size_t points) const {
+        return points > kEnoughPoints && radius >= kEnoughSigmas * params_.noise;
     }
 
     [[nodiscard]] bool explains_its_points(const Piece& piece) const {

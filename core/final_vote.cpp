@@ -1,0 +1,111 @@
+#include "core/final_vote.h"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "core/ballot.h"
+#include "core/blocks.h"
+#include "core/shape/point_grid.h"
+#include "core/shape/poisson_sampling.h"
+#include "core/voter.h"
+
+namespace lpf {
+namespace {
+
+/// A vote to move by this many sigma of the noise that the shape had counts 0.6 times one to stay:
+/// wider than where the points themselves were noisy, since LPFs that disagree are to be averaged.
+constexpr double kWidth = 2.0;
+
+/// A point that is moved by more than so many sigma, and this share of the spacing, is a stray.
+constexpr double kSigmasOfStray = 1.0;
+constexpr double kSpacingOfStray = 0.25;
+
+/// Points that are voted on together: about 100 bytes each.
+constexpr std::size_t kPointsOfPart = std::size_t{1} << 21U;
+
+/// Points follow each other in space: a cell of the grid holds about as many as suits balls.
+constexpr double kPointsOfCell = 32.0;
+
+constexpr std::size_t kFieldsPerChunk = 32;
+
+using Numbers = std::vector<std::uint32_t>;
+
+/// Lets some LPFs vote on the points of a grid.
+void vote_on(const PointGrid& grid, const FieldSet& fields, const Voter& voter,
+             const Numbers& voters, Ballot& ballot, const Execution& execution) {
+    parallel_for(execution, "vote", "fields", voters.size(), kFieldsPerChunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                     FieldSet::Worker worker = fields.make_worker(0);
+                     TargetArea& target = worker.probe.target;
+                     for (const std::uint32_t j :
+                          std::span(voters).subspan(begin, end - begin)) {
+                         if (fields.dimensions[j] == kTooFewPoints) continue;
+                         fields.gather_ball(j, target);
+                         const DensityMap density = voter.density(j, target);
+                         const MisfitMap misfit =
+                             voter.misfit(j, target, voter.field_at(j, target, worker));
+                         fields.gather_ball(j, grid, target);
+                         if (target.size == 0) continue;
+                         Arrows field = voter.field_at(j, target, worker);
+                         // The points lie on the shape already: they are not to slide along it.
+                         field.x.setZero();
+                         if (fields.pieces[j].dimension == kSurface) field.y.setZero();
+                         voter.cast(j, target, std::move(field), {misfit, density}, ballot);
+                     }
+                 });
+}
+
+/// Leaves the points that are `kept`, in their order.
+void keep(const std::vector<bool>& kept, Candidates& points) {
+    Eigen::Index to = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!kept[i]) continue;
+        points.points.col(to) = points.points.col(static_cast<Eigen::Index>(i)).eval();
+        points.field[static_cast<std::size_t>(to++)] = points.field[i];
+    }
+    points.points.conservativeResize(Eigen::NoChange, to);
+    points.field.resize(static_cast<std::size_t>(to));
+}
+
+}  // namespace
+
+void put_to_vote(const FieldSet& fields, const AnalysisResult& analysis, double noise,
+                 double spacing, Candidates& points, const Execution& execution) {
+    const Voter voter(fields, analysis, false, kWidth * noise);
+    const double far = std::max(kSigmasOfStray * noise, kSpacingOfStray * spacing);
+    Numbers all(fields.size());
+    std::iota(all.begin(), all.end(), 0U);
+    std::vector<bool> kept(points.size(), true);
+    const std::size_t parts = chunk_count(points.size(), kPointsOfPart);
+    for (std::size_t part = 0; part < parts; ++part) {
+        const std::size_t first = part * kPointsOfPart;
+        const std::size_t count = std::min(kPointsOfPart, points.size() - first);
+        const Points some = points.points.middleCols(static_cast<Eigen::Index>(first),
+                                                     static_cast<Eigen::Index>(count));
+        const double cell = cell_of_some_points(some, kPointsOfCell);
+        const PointGrid grid(some, cell > 0 ? cell : spacing, execution);
+        const Eigen::AlignedBox3d space{some.rowwise().minCoeff(), some.rowwise().maxCoeff()};
+        Ballot ballot(count, execution);
+        vote_on(grid, fields, voter, fields_near(fields.frames, all, space), ballot,
+                step_of(execution, part, parts));
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t point = first + grid.order()[i];
+            const Eigen::Vector3d move = analysis.radius * ballot.outcome(i);
+            points.points.col(static_cast<Eigen::Index>(point)) += move;
+            kept[point] = move.squaredNorm() <= far * far;
+        }
+    }
+    keep(kept, points);
+}
+
+void spread_out(double spacing, Candidates& points, const Execution& execution) {
+    std::vector<bool> kept(points.size(), false);
+    for (const std::uint32_t i : poisson_disk_subset(points.points, spacing, 0, execution)) {
+        kept[i] = true;
+    }
+    keep(kept, points);
+}
+
+}  // namespace lpf
