@@ -188,20 +188,50 @@ TEST(Resample, DenoisesFirstWhereAskedTo) {
     EXPECT_LT(1.3 * error(), raw);
 }
 
-TEST(Resample, PutsHardlyAPointInTheAirBesideEdges) {
-    const double noise = 0.01;
-    const auto cube = test::make_cube({.points = 20000, .noise = noise, .seed = 5});
+/// A noisy cube, resampled to four times its points with no other parameter given.
+class ResampleOfANoisyCube : public testing::Test {
+protected:
+    ResampleOfANoisyCube() {
+        ParameterRequest request;
+        request.factor = 4;
+        const Measurements measured = measure(cube.points, {.threads = 2});
+        params = resolve_parameters(Task::Resample, shape, measured, request).resample;
+    }
+
+    const test::TestShape cube = test::make_cube({.points = 20000, .noise = 0.01, .seed = 5});
     const Shape shape = cloud_of(cube.points);
-    ParameterRequest request;
-    request.factor = 4;
-    const Measurements measured = measure(cube.points, {.threads = 2});
-    const auto params = resolve_parameters(Task::Resample, shape, measured, request).resample;
+    ResampleParams params;
+};
+
+TEST_F(ResampleOfANoisyCube, PutsHardlyAPointInTheAirBesideEdges) {
     const ResampleResult result = resample(shape, params, {.threads = 2});
     int far = 0;
     for (Eigen::Index i = 0; i < result.points.cols(); ++i) {
         far += cube.distance(result.points.col(i)) > result.spacing;
     }
-    EXPECT_LT(far, 0.006 * static_cast<double>(result.points.cols()));
+    EXPECT_LT(far, 0.0015 * static_cast<double>(result.points.cols()));
+}
+
+TEST_F(ResampleOfANoisyCube, KeepsTheSpacingAndTheNumberOfPoints) {
+    const ResampleResult result = resample(shape, params, {.threads = 2});
+    expect_rows_agree(result, shape.size());
+    EXPECT_NEAR(static_cast<double>(result.points.cols()) / 80000, 1, 0.02);
+    const auto nearest = test::nearest_neighbour_stats(result.points);
+    EXPECT_GE(nearest.min, result.spacing * (1 - 1e-9));
+    EXPECT_LT(nearest.mean, 1.2 * result.spacing);
+}
+
+TEST_F(ResampleOfANoisyCube, KeepsASpacingThatIsGiven) {
+    params.target_points = 0;
+    params.target_spacing = 0.02;
+    const ResampleResult result = resample(shape, params, {.threads = 2});
+    EXPECT_DOUBLE_EQ(result.spacing, 0.02);
+    EXPECT_GE(test::nearest_neighbour_stats(result.points).min, 0.02 * (1 - 1e-9));
+    EXPECT_LT(test::coverage(cube.clean, result.points), 0.02);
+}
+
+TEST_F(ResampleOfANoisyCube, DoesNotDependOnTheNumberOfThreads) {
+    expect_same_for_any_threads(shape.cloud.points, params);
 }
 
 TEST(Resample, OfAMeshLiesOnItsTriangles) {
