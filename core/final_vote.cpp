@@ -8,7 +8,6 @@
 #include "core/ballot.h"
 #include "core/blocks.h"
 #include "core/shape/point_grid.h"
-#include "core/shape/poisson_sampling.h"
 #include "core/voter.h"
 
 namespace lpf {
@@ -29,6 +28,9 @@ constexpr std::size_t kPointsOfPart = std::size_t{1} << 21U;
 constexpr double kPointsOfCell = 32.0;
 
 constexpr std::size_t kFieldsPerChunk = 32;
+
+/// The largest float below 1: points just at the spacing may stay.
+constexpr float kInside = 0x1.fffffep-1F;
 
 using Numbers = std::vector<std::uint32_t>;
 
@@ -69,6 +71,50 @@ void keep(const std::vector<bool>& kept, Candidates& points) {
     points.field.resize(static_cast<std::size_t>(to));
 }
 
+/// The points of a part, and those before it that are kept and so near that they matter; ascending.
+Numbers kept_around(const Points& points, std::size_t begin, std::size_t end, double margin,
+                    const std::vector<bool>& kept) {
+    const auto part = points.middleCols(static_cast<Eigen::Index>(begin),
+                                        static_cast<Eigen::Index>(end - begin));
+    const Eigen::AlignedBox3d near =
+        widened({part.rowwise().minCoeff(), part.rowwise().maxCoeff()}, margin);
+    Numbers numbers;
+    for (std::size_t i = 0; i < end; ++i) {
+        const bool counts =
+            i >= begin || (kept[i] && near.contains(points.col(static_cast<Eigen::Index>(i))));
+        if (counts) numbers.push_back(static_cast<std::uint32_t>(i));
+    }
+    return numbers;
+}
+
+/// Two of some points that are nearer than the spacing: the later and the earlier. Ascending by the
+/// later.
+using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+Pairs near_pairs(const Points& points, const Numbers& numbers, double spacing,
+                 const Execution& execution) {
+    const Points some = points(Eigen::all, numbers);
+    const PointGrid grid(some, spacing, execution);
+    std::vector<Pairs> of_chunks(chunk_count(numbers.size(), kPointsPerChunk));
+    parallel_for(execution, "spread", "points", numbers.size(), kPointsPerChunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                     NearPoints near;
+                     for (std::size_t i = begin; i < end; ++i) {
+                         grid.gather(some.col(static_cast<Eigen::Index>(i)), spacing, kInside,
+                                     near);
+                         for (std::size_t k = 0; k < near.size; ++k) {
+                             const std::uint32_t other = grid.order()[near.index[k]];
+                             if (other < i) {
+                                 of_chunks[chunk].push_back({numbers[i], numbers[other]});
+                             }
+                         }
+                     }
+                 });
+    Pairs all;
+    for (const Pairs& pairs : of_chunks) all.insert(all.end(), pairs.begin(), pairs.end());
+    return all;
+}
+
 }  // namespace
 
 void put_to_vote(const FieldSet& fields, const AnalysisResult& analysis, double noise,
@@ -101,9 +147,15 @@ void put_to_vote(const FieldSet& fields, const AnalysisResult& analysis, double 
 }
 
 void spread_out(double spacing, Candidates& points, const Execution& execution) {
-    std::vector<bool> kept(points.size(), false);
-    for (const std::uint32_t i : poisson_disk_subset(points.points, spacing, 0, execution)) {
-        kept[i] = true;
+    std::vector<bool> kept(points.size(), true);
+    const std::size_t parts = chunk_count(points.size(), kPointsOfPart);
+    for (std::size_t part = 0; part < parts; ++part) {
+        const std::size_t end = std::min((part + 1) * kPointsOfPart, points.size());
+        const Numbers numbers = kept_around(points.points, part * kPointsOfPart, end, spacing, kept);
+        for (const auto& [later, earlier] : near_pairs(points.points, numbers, spacing,
+                                                       step_of(execution, part, parts))) {
+            if (kept[earlier]) kept[later] = false;
+        }
     }
     keep(kept, points);
 }

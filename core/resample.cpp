@@ -51,7 +51,9 @@ struct Found {
 Found take_consensus(const FieldSet& fields, const AnalysisResult& analysis,
                      const ResampleParams& params, const Execution& execution) {
     Consolidation::Found found = Consolidation(fields, analysis, params).find(execution);
-    return {found.consensus.take(), found.spacing};
+    Candidates points = found.consensus.take();
+    return_freed_memory();  // of many small cells
+    return {std::move(points), found.spacing};
 }
 
 /// The noise that denoising has taken from the shape [input length]; 0 = none to speak of.
@@ -100,7 +102,7 @@ ResampleResult resample(const Shape& shape, const ResampleParams& params,
     AnalysisResult analysis = analyze(*fields, params.analysis, part_of(rest, 0.1, 0.5));
     Found found = find_points(*fields, analysis, params, part_of(rest, 0.5, 0.9));
     fields.reset();
-    return_freed_memory();  // of many small cells
+    return_freed_memory();
     ResampleResult result{std::move(found.points.points),
                           {},
                           std::move(found.points.field),
