@@ -1,6 +1,7 @@
 #include "core/final_vote.h"
 
 #include <algorithm>
+#include <compare>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -28,9 +29,6 @@ constexpr std::size_t kPointsOfPart = std::size_t{1} << 21U;
 constexpr double kPointsOfCell = 32.0;
 
 constexpr std::size_t kFieldsPerChunk = 32;
-
-/// The largest float below 1: points just at the spacing may stay.
-constexpr float kInside = 0x1.fffffep-1F;
 
 using Numbers = std::vector<std::uint32_t>;
 
@@ -71,48 +69,69 @@ void keep(const std::vector<bool>& kept, Candidates& points) {
     points.field.resize(static_cast<std::size_t>(to));
 }
 
-/// The points of a part, and those before it that are kept and so near that they matter; ascending.
-Numbers kept_around(const Points& points, std::size_t begin, std::size_t end, double margin,
-                    const std::vector<bool>& kept) {
+/// The points of a part, and those before it that are so near that they matter; ascending.
+Numbers part_and_before(const Points& points, std::size_t begin, std::size_t end, double margin) {
     const auto part = points.middleCols(static_cast<Eigen::Index>(begin),
                                         static_cast<Eigen::Index>(end - begin));
     const Eigen::AlignedBox3d near =
         widened({part.rowwise().minCoeff(), part.rowwise().maxCoeff()}, margin);
     Numbers numbers;
     for (std::size_t i = 0; i < end; ++i) {
-        const bool counts =
-            i >= begin || (kept[i] && near.contains(points.col(static_cast<Eigen::Index>(i))));
-        if (counts) numbers.push_back(static_cast<std::uint32_t>(i));
+        if (i >= begin || near.contains(points.col(static_cast<Eigen::Index>(i)))) {
+            numbers.push_back(static_cast<std::uint32_t>(i));
+        }
     }
     return numbers;
 }
 
-/// Two of some points that are nearer than the spacing: the later and the earlier. Ascending by the
-/// later.
-using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+/// Two points that are near each other.
+struct Pair {
+    double distance;  ///< [input length]
+    std::uint32_t later;
+    std::uint32_t earlier;
 
-Pairs near_pairs(const Points& points, const Numbers& numbers, double spacing,
-                 const Execution& execution) {
+    auto operator<=>(const Pair&) const = default;
+};
+using Pairs = std::vector<Pair>;
+
+/// Appends the pairs of some points that are nearer than a distance and of which the later is not
+/// before `first`.
+void add_near_pairs(const Points& points, const Numbers& numbers, std::size_t first,
+                    double distance, Pairs& all, const Execution& execution) {
     const Points some = points(Eigen::all, numbers);
-    const PointGrid grid(some, spacing, execution);
+    const PointGrid grid(some, distance, execution);
     std::vector<Pairs> of_chunks(chunk_count(numbers.size(), kPointsPerChunk));
     parallel_for(execution, "spread", "points", numbers.size(), kPointsPerChunk,
                  [&](std::size_t begin, std::size_t end, std::size_t chunk) {
                      NearPoints near;
                      for (std::size_t i = begin; i < end; ++i) {
-                         grid.gather(some.col(static_cast<Eigen::Index>(i)), spacing, kInside,
-                                     near);
+                         if (numbers[i] < first) continue;
+                         const Eigen::Vector3d at = some.col(static_cast<Eigen::Index>(i));
+                         grid.gather(at, distance, 1.0F, near);
                          for (std::size_t k = 0; k < near.size; ++k) {
                              const std::uint32_t other = grid.order()[near.index[k]];
-                             if (other < i) {
-                                 of_chunks[chunk].push_back({numbers[i], numbers[other]});
-                             }
+                             if (other >= i) continue;
+                             const double apart = (some.col(other) - at).norm();
+                             of_chunks[chunk].push_back({apart, numbers[i], numbers[other]});
                          }
                      }
                  });
-    Pairs all;
     for (const Pairs& pairs : of_chunks) all.insert(all.end(), pairs.begin(), pairs.end());
-    return all;
+}
+
+/// All pairs of points nearer than a distance, the nearest first.
+Pairs near_pairs(const Points& points, double distance, const Execution& execution) {
+    const auto n = static_cast<std::size_t>(points.cols());
+    const std::size_t parts = chunk_count(n, kPointsOfPart);
+    Pairs pairs;
+    for (std::size_t part = 0; part < parts; ++part) {
+        const std::size_t begin = part * kPointsOfPart;
+        const std::size_t end = std::min(begin + kPointsOfPart, n);
+        add_near_pairs(points, part_and_before(points, begin, end, distance), begin, distance,
+                       pairs, step_of(execution, part, parts));
+    }
+    std::ranges::sort(pairs);
+    return pairs;
 }
 
 }  // namespace
@@ -146,18 +165,23 @@ void put_to_vote(const FieldSet& fields, const AnalysisResult& analysis, double 
     keep(kept, points);
 }
 
-void spread_out(double spacing, Candidates& points, const Execution& execution) {
+double spread_out(const Apart& apart, Candidates& points, const Execution& execution) {
+    const double reach = std::max(apart.least, apart.wanted);
+    double nearest = reach;
     std::vector<bool> kept(points.size(), true);
-    const std::size_t parts = chunk_count(points.size(), kPointsOfPart);
-    for (std::size_t part = 0; part < parts; ++part) {
-        const std::size_t end = std::min((part + 1) * kPointsOfPart, points.size());
-        const Numbers numbers = kept_around(points.points, part * kPointsOfPart, end, spacing, kept);
-        for (const auto& [later, earlier] : near_pairs(points.points, numbers, spacing,
-                                                       step_of(execution, part, parts))) {
-            if (kept[earlier]) kept[later] = false;
+    std::size_t left = points.size();
+    for (const Pair& pair : near_pairs(points.points, reach, execution)) {
+        if (!kept[pair.later] || !kept[pair.earlier]) continue;
+        if (pair.distance >= apart.least && left <= apart.enough) {
+            nearest = std::min(pair.distance, reach);
+            break;
         }
+        if (pair.distance >= reach) break;
+        kept[pair.later] = false;
+        --left;
     }
     keep(kept, points);
+    return nearest;
 }
 
 }  // namespace lpf

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "core/analysis.h"
 #include "core/consensus.h"
 #include "core/field_set.h"
@@ -15,7 +17,15 @@ namespace lpf {
 void put_to_vote(const FieldSet& fields, const AnalysisResult& analysis, double noise,
                  double spacing, Candidates& points, const Execution& execution);
 
-/// Drops points so that no two are nearer than the spacing [input length].
-void spread_out(double spacing, Candidates& points, const Execution& execution);
+/// How far points are to be apart [input length].
+struct Apart {
+    double least = 0.0;      ///< of two nearer than that, one is dropped
+    double wanted = 0.0;     ///< the same, as long as there are enough points
+    std::size_t enough = 0;  ///< number of points
+};
+
+/// Drops points that are too near to others, those of the nearest pairs first.
+/// @returns a distance that no two points are nearer than [input length]
+double spread_out(const Apart& apart, Candidates& points, const Execution& execution);
 
 }  // namespace lpf

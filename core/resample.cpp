@@ -15,14 +15,20 @@
 namespace lpf {
 namespace {
 
-/// A vote moves points: they start so much further apart than they have to be, and so many more
-/// than are wanted, as some are dropped.
+/// A vote moves points: they start so much further apart than they have to be, or so many more than
+/// are wanted, as some are dropped.
 constexpr double kSpacingToMove = 1 / 0.98;
-constexpr double kPointsToDrop = 1 / 0.985;
+constexpr double kPointsToDrop = 1.015;
+
+/// Points of a number that is wanted are spread to this share of the spacing that they start with:
+/// all of them, and as long as there are enough.
+constexpr double kLeastSpread = 0.9;
+constexpr double kMostSpread = 1.03;
 
 /// The number of points is met as nearly; else the search starts anew, at most so often.
-constexpr double kCountTolerance = 0.018;
+constexpr double kCountTolerance = 0.019;
 constexpr int kMostTries = 3;
+constexpr double kShareOfOthers = 0.1;
 
 void validate(const ResampleParams& params) {
     validate(params.analysis);
@@ -62,27 +68,52 @@ double noise_taken(const ResampleParams& params) {
     return noise > params.analysis.noise ? noise : 0.0;
 }
 
-/// What all LPFs agree on: the consensus, and where there was noise, their votes on it.
+/// Points that all LPFs have voted on, and how far apart they started.
+Found take_vote(const FieldSet& fields, const AnalysisResult& analysis,
+                const ResampleParams& params, double noise, const Execution& execution) {
+    Found found = take_consensus(fields, analysis, params, part_of(execution, 0.0, 0.7));
+    put_to_vote(fields, analysis, noise, found.spacing, found.points,
+                part_of(execution, 0.7, 0.9));
+    return found;
+}
+
+Found find_with_spacing(const FieldSet& fields, const AnalysisResult& analysis,
+                        ResampleParams params, double noise, const Execution& execution) {
+    const double spacing = params.target_spacing;
+    params.target_spacing *= kSpacingToMove;
+    Found found = take_vote(fields, analysis, params, noise, execution);
+    spread_out({.least = spacing}, found.points, part_of(execution, 0.9, 1.0));
+    return {std::move(found.points), spacing};
+}
+
+Found find_with_number(const FieldSet& fields, const AnalysisResult& analysis,
+                       ResampleParams params, double noise, const Execution& execution) {
+    const std::size_t enough = params.target_points;
+    const auto wanted = static_cast<double>(enough);
+    double aim = kPointsToDrop * wanted;
+    for (int tries = 1;; ++tries) {
+        // Most often the first is the last: each takes most of what is left of a progress bar.
+        const double rest = std::pow(kShareOfOthers, tries - 1);
+        const Execution part = part_of(execution, 1 - rest, 1 - kShareOfOthers * rest);
+        params.target_points = static_cast<std::size_t>(std::llround(aim));
+        Found found = take_vote(fields, analysis, params, noise, part);
+        const Apart apart{kLeastSpread * found.spacing, kMostSpread * found.spacing, enough};
+        found.spacing = spread_out(apart, found.points, part_of(part, 0.9, 1.0));
+        const auto count = static_cast<double>(found.points.size());
+        if (std::abs(count - wanted) <= kCountTolerance * wanted || tries == kMostTries) {
+            return found;
+        }
+        aim *= wanted / std::max(1.0, count);
+    }
+}
+
+/// What all LPFs agree on: their consensus, and where there was noise, their votes on it.
 Found find_points(const FieldSet& fields, const AnalysisResult& analysis,
                   const ResampleParams& params, const Execution& execution) {
     const double noise = noise_taken(params);
     if (noise == 0) return take_consensus(fields, analysis, params, execution);
-    ResampleParams ampler = params;
-    ampler.target_spacing *= kSpacingToMove;
-    const auto wanted = static_cast<double>(params.target_points);
-    double aim = kPointsToDrop * wanted;
-    for (int tries = 1;; ++tries) {
-        const Execution part = step_of(execution, static_cast<std::size_t>(tries - 1), kMostTries);
-        ampler.target_points = static_cast<std::size_t>(std::llround(aim));
-        Found found = take_consensus(fields, analysis, ampler, part_of(part, 0.0, 0.6));
-        found.spacing /= kSpacingToMove;
-        put_to_vote(fields, analysis, noise, found.spacing, found.points, part_of(part, 0.6, 0.9));
-        spread_out(found.spacing, found.points, part_of(part, 0.9, 1.0));
-        const auto count = static_cast<double>(found.points.size());
-        const bool is_met = std::abs(count - wanted) <= kCountTolerance * wanted;
-        if (params.target_spacing > 0 || is_met || tries == kMostTries) return found;
-        aim *= wanted / std::max(1.0, count);
-    }
+    const auto find = params.target_points > 0 ? find_with_number : find_with_spacing;
+    return find(fields, analysis, params, noise, execution);
 }
 
 }  // namespace

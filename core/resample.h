@@ -33,7 +33,7 @@ struct ResampleResult {
     Points points;
     std::vector<std::uint32_t> source;  ///< nearest input point of each, as an index into the input
     std::vector<std::uint32_t> field;   ///< the LPF that proposed it
-    double spacing = 0.0;               ///< tau_p that was used [input length]
+    double spacing = 0.0;               ///< no two points are nearer; tau_p if given [input length]
     AnalysisResult analysis;
 };
 

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
+#include <vector>
 
 #include "core/auto_parameters.h"
 #include "core/denoise.h"
@@ -108,25 +110,43 @@ TEST_F(FinalVote, LeavesPointsThatNoLpfKnowsWhereTheyAre) {
     EXPECT_EQ(result.field, far.field);
 }
 
-TEST(SpreadOut, DropsWhatIsTooNearAndNothingElse) {
-    Candidates points{Points(3, 4), {4, 5, 6, 7}};
-    points.points << 0, 1, 2, 2.4,  //
-        0, 0, 0, 0,                 //
-        0, 0, 0, 0;
-    spread_out(0.9, points, {});
-    ASSERT_EQ(points.size(), 3U);
-    EXPECT_EQ(points.field[0], 4U);
-    EXPECT_EQ(points.field[1], 5U);
-    EXPECT_GE(points.points(0, 2), 2.0);
-    EXPECT_EQ(points.field[2], points.points(0, 2) == 2.0 ? 6U : 7U);
+Candidates on_a_line(std::initializer_list<double> places) {
+    Candidates points{Points::Zero(3, static_cast<Eigen::Index>(places.size())), {}};
+    for (const double x : places) {
+        points.points(0, static_cast<Eigen::Index>(points.field.size())) = x;
+        points.field.push_back(static_cast<std::uint32_t>(points.field.size()));
+    }
+    return points;
 }
 
-TEST(SpreadOut, LeavesNoTwoNearerThanTheSpacing) {
-    Candidates points{test::make_sphere({.points = 4000}).points, {}};
-    points.field.assign(4000, 0);
-    spread_out(0.05, points, {.threads = 2});
-    EXPECT_GE(test::nearest_neighbour_stats(points.points).min, 0.05 * (1 - 1e-9));
-    EXPECT_GT(points.size(), 1000U);
+using Rows = std::vector<std::uint32_t>;
+
+TEST(SpreadOut, DropsTheLaterOfTwoThatAreTooNear) {
+    Candidates points = on_a_line({0, 1, 2, 2.4, 1.5});
+    EXPECT_EQ(spread_out({.least = 0.9}, points, {}), 0.9);
+    EXPECT_EQ(points.field, (Rows{0, 1, 2}));
+    EXPECT_EQ(points.points.row(0), Eigen::RowVector3d(0, 1, 2));
+}
+
+TEST(SpreadOut, StopsAtTheNumberThatIsEnoughAndTellsWhatIsLeft) {
+    const Candidates all = on_a_line({0, 0.5, 2, 2.4, 4, 4.7});
+    Candidates points = all;
+    EXPECT_NEAR(spread_out({.least = 0.1, .wanted = 1, .enough = 4}, points, {}), 0.7, 1e-12);
+    EXPECT_EQ(points.field, (Rows{0, 2, 4, 5}));
+    points = all;
+    EXPECT_EQ(spread_out({.least = 0.1, .wanted = 1, .enough = 2}, points, {}), 1);
+    EXPECT_EQ(points.field, (Rows{0, 2, 4}));
+    points = all;
+    EXPECT_NEAR(spread_out({.least = 0.45, .wanted = 1, .enough = 9}, points, {}), 0.5, 1e-12);
+    EXPECT_EQ(points.field, (Rows{0, 1, 2, 4, 5}));
+}
+
+TEST(SpreadOut, LeavesNoTwoNearerThanItTells) {
+    Candidates points{test::make_sphere({.points = 4000}).points, Rows(4000, 0)};
+    const double apart = spread_out({.least = 0.03, .wanted = 0.05, .enough = 2500}, points, {});
+    EXPECT_EQ(points.size(), 2500U);
+    EXPECT_GT(apart, 0.03);
+    EXPECT_NEAR(test::nearest_neighbour_stats(points.points).min, apart, 1e-12);
 }
 
 }  // namespace
