@@ -23,7 +23,7 @@ constexpr double kSigmasOfStray = 1.0;
 constexpr double kSpacingOfStray = 0.25;
 
 /// Points that are voted on together: about 100 bytes each.
-constexpr std::size_t kPointsOfPart = std::size_t{1} << 21U;
+constexpr std::size_t kPointsOfPart = std::size_t{1} << 20U;
 
 /// Points follow each other in space: a cell of the grid holds about as many as suits balls.
 constexpr double kPointsOfCell = 32.0;
@@ -39,8 +39,7 @@ void vote_on(const PointGrid& grid, const FieldSet& fields, const Voter& voter,
                  [&](std::size_t begin, std::size_t end, std::size_t) {
                      FieldSet::Worker worker = fields.make_worker(0);
                      TargetArea& target = worker.probe.target;
-                     for (const std::uint32_t j :
-                          std::span(voters).subspan(begin, end - begin)) {
+                     for (const std::uint32_t j : std::span(voters).subspan(begin, end - begin)) {
                          if (fields.dimensions[j] == kTooFewPoints) continue;
                          fields.gather_ball(j, target);
                          const DensityMap density = voter.density(j, target);
@@ -71,8 +70,8 @@ void keep(const std::vector<bool>& kept, Candidates& points) {
 
 /// The points of a part, and those before it that are so near that they matter; ascending.
 Numbers part_and_before(const Points& points, std::size_t begin, std::size_t end, double margin) {
-    const auto part = points.middleCols(static_cast<Eigen::Index>(begin),
-                                        static_cast<Eigen::Index>(end - begin));
+    const auto part =
+        points.middleCols(static_cast<Eigen::Index>(begin), static_cast<Eigen::Index>(end - begin));
     const Eigen::AlignedBox3d near =
         widened({part.rowwise().minCoeff(), part.rowwise().maxCoeff()}, margin);
     Numbers numbers;

@@ -72,8 +72,7 @@ double noise_taken(const ResampleParams& params) {
 Found take_vote(const FieldSet& fields, const AnalysisResult& analysis,
                 const ResampleParams& params, double noise, const Execution& execution) {
     Found found = take_consensus(fields, analysis, params, part_of(execution, 0.0, 0.7));
-    put_to_vote(fields, analysis, noise, found.spacing, found.points,
-                part_of(execution, 0.7, 0.9));
+    put_to_vote(fields, analysis, noise, found.spacing, found.points, part_of(execution, 0.7, 0.9));
     return found;
 }
 

@@ -97,9 +97,7 @@ TEST_F(FinalVote, DoesNotDependOnTheNumberOfThreads) {
     }
 }
 
-TEST_F(FinalVote, TakesNoPoints) {
-    EXPECT_EQ(voted({Points(3, 0), {}}).size(), 0U);
-}
+TEST_F(FinalVote, TakesNoPoints) { EXPECT_EQ(voted({Points(3, 0), {}}).size(), 0U); }
 
 TEST_F(FinalVote, LeavesPointsThatNoLpfKnowsWhereTheyAre) {
     Candidates far{Points(3, 1), {7}};
