@@ -30,6 +30,9 @@ constexpr double kPointsOfCell = 32.0;
 
 constexpr std::size_t kFieldsPerChunk = 32;
 
+/// So that no rounding of a search loses a pair; exact distances decide.
+constexpr float kRoundingUp = 1.0001F;
+
 using Numbers = std::vector<std::uint32_t>;
 
 /// Lets some LPFs vote on the points of a grid.
@@ -106,7 +109,7 @@ void add_near_pairs(const Points& points, const Numbers& numbers, std::size_t fi
                      for (std::size_t i = begin; i < end; ++i) {
                          if (numbers[i] < first) continue;
                          const Eigen::Vector3d at = some.col(static_cast<Eigen::Index>(i));
-                         grid.gather(at, distance, 1.0F, near);
+                         grid.gather(at, distance, kRoundingUp, near);
                          for (std::size_t k = 0; k < near.size; ++k) {
                              const std::uint32_t other = grid.order()[near.index[k]];
                              if (other >= i) continue;
