@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "core/base/memory.h"
 #include "core/field/target_area.h"
 #include "core/shape/hash_grid.h"
 
@@ -17,6 +18,9 @@ namespace {
 constexpr double kCellSide = 24.0;
 
 constexpr std::size_t kColours = 8;
+
+/// While points are handed out, the memory of their cells is given back after so many.
+constexpr std::size_t kPointsPerReturn = std::size_t{1} << 20U;
 
 /// The parity of its coordinates: two cells of one colour have one of another between them.
 std::size_t colour_of(const Cell& cell) {
@@ -157,10 +161,15 @@ Candidates Consensus::take() {
     Candidates all{Points(3, static_cast<Eigen::Index>(size())), {}};
     all.field.reserve(size());
     Eigen::Index i = 0;
+    std::size_t taken = 0;
     while (!settled_.empty()) {
         const Settled settled = std::move(settled_.extract(settled_.begin()).mapped());
         for (const Eigen::Vector3d& point : settled.points) all.points.col(i++) = point;
         all.field.insert(all.field.end(), settled.field.begin(), settled.field.end());
+        taken += settled.field.size();
+        if (taken < kPointsPerReturn) continue;
+        return_freed_memory();
+        taken = 0;
     }
     return all;
 }

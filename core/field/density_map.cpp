@@ -5,6 +5,11 @@
 #include <cmath>
 
 namespace lpf {
+namespace {
+
+constexpr float kFewestPoints = 1e-6F;
+
+}  // namespace
 
 void DensityMap::count(const Piece& piece, const TargetArea& flattened, float reach) {
     raster_ = DiskRaster(piece.is_curve());
@@ -25,6 +30,18 @@ void DensityMap::count(const Piece& piece, const TargetArea& flattened, float re
     }
     level_ = sum > 0 ? squares / sum : 0.0F;
     for (float& count : cells_) count /= std::max(level_, 1e-9F);
+    if (!piece.is_curve()) weigh_by_share(flattened);
+}
+
+/// Where many points are none of its members, another part of the shape is near.
+void DensityMap::weigh_by_share(const TargetArea& flattened) {
+    const auto n = static_cast<Eigen::Index>(flattened.size);
+    const Eigen::ArrayXf ones = Eigen::ArrayXf::Ones(n);
+    DiskRaster::Values all{};
+    raster_.add(flattened.x.data(), flattened.y.data(), ones.data(), flattened.size, all);
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+        cells_[k] *= level_ * cells_[k] / std::max(all[k], kFewestPoints);
+    }
 }
 
 void DensityMap::read(const float* x, const float* y, std::size_t n, float* out) const {

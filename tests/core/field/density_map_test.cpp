@@ -56,6 +56,17 @@ TEST(DensityMap, IsHalfAtABorderAndNearlyNothingBeyondIt) {
     EXPECT_GE(density_at(map, 0.4F, 0.1F), 0.0F);
 }
 
+TEST(DensityMap, IsLessWhereManyOtherPointsAreOnSurfacesAlone) {
+    TargetArea target = disk([](float, float) { return true; });
+    for (std::size_t i = 1; i < target.size; i += 2) {
+        if (target.x[i] > 0) target.z[i] = 0.5F;  // half of the points there are off the piece
+    }
+    DensityMap map;
+    map.count(flat(kSurface), target, 0.1F);
+    const float left = density_at(map, -0.5F, 0.0F);
+    EXPECT_NEAR(density_at(map, 0.5F, 0.0F), 0.25F * left, 0.05F);  // half as dense, half a share
+}
+
 TEST(DensityMap, LooksAlongACurveOnly) {
     DensityMap map;
     map.count(flat(kCurve), disk([](float x, float y) { return x < 0 && std::abs(y) < 0.05F; }),
