@@ -1,10 +1,9 @@
 #include "core/final_vote.h"
 
 #include <algorithm>
-#include <compare>
 #include <numeric>
 #include <span>
-#include <utility>
+#include <tuple>
 
 #include "core/ballot.h"
 #include "core/blocks.h"
@@ -54,7 +53,7 @@ void vote_on(const PointGrid& grid, const FieldSet& fields, const Voter& voter,
                          // The points lie on the shape already: they are not to slide along it.
                          field.x.setZero();
                          if (fields.pieces[j].dimension == kSurface) field.y.setZero();
-                         voter.cast(j, target, std::move(field), {misfit, density}, ballot);
+                         voter.cast(j, target, field, {misfit, density}, ballot);
                      }
                  });
 }
@@ -91,8 +90,6 @@ struct Pair {
     double distance;  ///< [input length]
     std::uint32_t later;
     std::uint32_t earlier;
-
-    auto operator<=>(const Pair&) const = default;
 };
 using Pairs = std::vector<Pair>;
 
@@ -132,7 +129,8 @@ Pairs near_pairs(const Points& points, double distance, const Execution& executi
         add_near_pairs(points, part_and_before(points, begin, end, distance), begin, distance,
                        pairs, step_of(execution, part, parts));
     }
-    std::ranges::sort(pairs);
+    std::ranges::sort(pairs, {},
+                      [](const Pair& p) { return std::tuple(p.distance, p.later, p.earlier); });
     return pairs;
 }
 

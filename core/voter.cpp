@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
 
 #include "core/base/vote_kernels.h"
 #include "core/field/field_image.h"
@@ -92,7 +91,7 @@ DensityMap Voter::density(std::size_t j, const TargetArea& target) const {
     return density;
 }
 
-void Voter::cast(std::size_t j, const TargetArea& target, Arrows field, const Trust& trust,
+void Voter::cast(std::size_t j, const TargetArea& target, const Arrows& field, const Trust& trust,
                  Ballot& ballot) const {
     const Piece& piece = fields_.pieces[j];
     Arrows moves = wanted_moves(piece, target, field);

@@ -55,7 +55,7 @@ public:
     [[nodiscard]] DensityMap density(std::size_t j, const TargetArea& target) const;
 
     /// Casts the votes of LPF j for the points of a flattened target area.
-    void cast(std::size_t j, const TargetArea& target, Arrows field, const Trust& trust,
+    void cast(std::size_t j, const TargetArea& target, const Arrows& field, const Trust& trust,
               Ballot& ballot) const;
 
 private:

@@ -1,7 +1,5 @@
 #include "core/votes.h"
 
-#include <utility>
-
 #include "core/ballot.h"
 #include "core/voter.h"
 
@@ -47,7 +45,7 @@ private:
             field.x.setZero();
             field.y.setZero();
         }
-        voter_.cast(j, target, std::move(field), {misfits_[j], voter_.density(j, target)}, ballot);
+        voter_.cast(j, target, field, {misfits_[j], voter_.density(j, target)}, ballot);
     }
 
     /// Moves the points of a flattened target area to where the round before has put them.
@@ -93,7 +91,7 @@ Moves vote(const FieldSet& fields, const AnalysisResult& analysis, const VotePar
                      });
         return moves;
     };
-    const Moves first = decide(nullptr, kFirstWidth * params.noise, part_of(execution, 0.0, 0.5));
+    Moves first = decide(nullptr, kFirstWidth * params.noise, part_of(execution, 0.0, 0.5));
     if (params.noise <= 0) return first;
     return decide(&first, kSecondWidth * params.noise, part_of(execution, 0.5, 1.0));
 }
