@@ -45,11 +45,12 @@ void vote_on(const PointGrid& grid, const FieldSet& fields, const Voter& voter,
                          if (fields.dimensions[j] == kTooFewPoints) continue;
                          fields.gather_ball(j, target);
                          const DensityMap density = voter.density(j, target);
+                         const FieldImage image = voter.image(j, worker);
                          const MisfitMap misfit =
-                             voter.misfit(j, target, voter.field_at(j, target, worker));
+                             voter.misfit(j, target, Voter::field_at(target, image));
                          fields.gather_ball(j, grid, target);
                          if (target.size == 0) continue;
-                         Arrows field = voter.field_at(j, target, worker);
+                         Arrows field = Voter::field_at(target, image);
                          // The points lie on the shape already: they are not to slide along it.
                          field.x.setZero();
                          if (fields.pieces[j].dimension == kSurface) field.y.setZero();
@@ -172,11 +173,11 @@ double spread_out(const Apart& apart, Candidates& points, const Execution& execu
     std::size_t left = points.size();
     for (const Pair& pair : near_pairs(points.points, reach, execution)) {
         if (!kept[pair.later] || !kept[pair.earlier]) continue;
+        if (pair.distance >= reach) break;
         if (pair.distance >= apart.least && left <= apart.enough) {
-            nearest = std::min(pair.distance, reach);
+            nearest = pair.distance;
             break;
         }
-        if (pair.distance >= reach) break;
         kept[pair.later] = false;
         --left;
     }

@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "core/base/vote_kernels.h"
-#include "core/field/field_image.h"
 
 namespace lpf {
 namespace {
@@ -66,11 +65,15 @@ float Voter::size_of(std::size_t j) const {
     return static_cast<float>(fields_.frames[j].radius / analysis_.radius);
 }
 
-Arrows Voter::field_at(std::size_t j, const TargetArea& target, FieldSet::Worker& worker) const {
+FieldImage Voter::image(std::size_t j, FieldSet::Worker& worker) const {
     analysis_.dictionary.decode(analysis_.codes[j], worker.decoded);
-    Arrows field(target.size);
     FieldImage image(fields_.pattern());
     image.assign(worker.decoded.data());
+    return image;
+}
+
+Arrows Voter::field_at(const TargetArea& target, const FieldImage& image) {
+    Arrows field(target.size);
     float* const out[3] = {field.x.data(), field.y.data(), field.z.data()};
     image.read(target.x.data(), target.y.data(), target.size, out);
     return field;
@@ -164,7 +167,7 @@ void Voter::cast_moves(std::size_t j, const TargetArea& target, Eigen::ArrayXf w
                     .precision = width_ > 0 ? 1.0F / (sigma * sigma) : 0.0F},
                    target.x.data(), target.y.data(), moves.x.data(), moves.y.data(), moves.z.data(),
                    target.size, weights.data());
-    moves.rotate(size * fields_.frames[j].axes.cast<float>());
+    moves.rotate(size * fields_.frames[j].axes);
     ballot.cast({.point = {target.index.data(), target.size},
                  .weight = {weights.data(), target.size},
                  .move = {moves.x.data(), moves.y.data(), moves.z.data()}});

@@ -7,6 +7,7 @@
 #include "core/analysis.h"
 #include "core/ballot.h"
 #include "core/field/density_map.h"
+#include "core/field/field_image.h"
 #include "core/field/misfit_map.h"
 #include "core/field/target_area.h"
 #include "core/field_set.h"
@@ -32,7 +33,8 @@ struct Trust {
     const DensityMap& density;  ///< counted where they lie now
 };
 
-/// One vote of an LPF on the points near it: from where they are to its field (paper Sec. 4.2).
+/// How LPFs vote on the points near them: to move from where they are to their fields (paper
+/// Sec. 4.2).
 class Voter {
 public:
     /// @param sharp  votes count by the cube of the representation error alone
@@ -42,10 +44,12 @@ public:
     /// The radius of LPF j [radius of the analysis].
     [[nodiscard]] float size_of(std::size_t j) const;
 
-    /// The consolidated field of LPF j at the points of a flattened target area: T(x, y) between
-    /// the nodes, too, so that nothing snaps to them. @param worker room to decode it in
-    [[nodiscard]] Arrows field_at(std::size_t j, const TargetArea& target,
-                                  FieldSet::Worker& worker) const;
+    /// The consolidated field of LPF j. @param worker room to decode it in
+    [[nodiscard]] FieldImage image(std::size_t j, FieldSet::Worker& worker) const;
+
+    /// A field at the points of a flattened target area: T(x, y) between the nodes, too, so that
+    /// nothing snaps to them.
+    [[nodiscard]] static Arrows field_at(const TargetArea& target, const FieldImage& image);
 
     /// Whether the piece of LPF j suits its own points. @param field at each of them
     [[nodiscard]] MisfitMap misfit(std::size_t j, const TargetArea& target,

@@ -37,7 +37,7 @@ private:
     void vote(std::size_t j, FieldSet::Worker& worker, Ballot& ballot) const {
         TargetArea& target = worker.probe.target;
         if (before_) move_as_decided(j, target);
-        Arrows field = voter_.field_at(j, target, worker);
+        Arrows field = Voter::field_at(target, voter_.image(j, worker));
         if (!before_) {
             misfits_[j] = voter_.misfit(j, target, field);
         } else if (fields_.pieces[j].dimension == kSurface) {
