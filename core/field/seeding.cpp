@@ -62,7 +62,7 @@ using Indices = std::vector<std::uint32_t>;
 enum Care : std::uint8_t { kOpen = 0, kTried = 1, kOnSurface = 2, kOnCurve = 3 };
 
 struct Seed {
-    std::uint32_t point = 0;
+    std::uint32_t place = 0;  ///< of its point, in the order of the grid
     Frame frame;
     Piece piece;
     bool fits = false;
@@ -97,7 +97,6 @@ public:
         : points_(points),
           grid_(grid),
           params_(params),
-          place_(grid.places(execution)),
           care_(grid.size(), kOpen),
           outside_(distances_to_region(execution)) {}
 
@@ -121,27 +120,27 @@ public:
 
 private:
     [[nodiscard]] std::vector<double> distances_to_region(const Execution& execution) const {
-        std::vector<double> distances(params_.region.empty() ? 0 : place_.size());
+        std::vector<double> distances(params_.region.empty() ? 0 : grid_.size());
         parallel_for(execution, distances.size(), kPointsPerChunk,
                      [&](std::size_t begin, std::size_t end, std::size_t) {
                          for (std::size_t i = begin; i < end; ++i) {
                              distances[i] = distance_to(params_.region,
-                                                        points_.col(static_cast<Eigen::Index>(i)));
+                                                        points_.col(grid_.order()[i]));
                          }
                      });
         return distances;
     }
 
-    /// Of the points that nothing takes care of, in the order of the input.
+    /// Of the points that nothing takes care of, ascending.
     [[nodiscard]] Indices open_places(double radius, const Execution& execution) const {
         const double reach = params_.target_radius * radius;
-        std::vector<Indices> parts(chunk_count(place_.size(), kPointsPerChunk));
-        parallel_for(execution, place_.size(), kPointsPerChunk,
+        std::vector<Indices> parts(chunk_count(care_.size(), kPointsPerChunk));
+        parallel_for(execution, care_.size(), kPointsPerChunk,
                      [&](std::size_t begin, std::size_t end, std::size_t chunk) {
                          for (std::size_t i = begin; i < end; ++i) {
-                             if (care_[place_[i]] != kOpen) continue;
+                             if (care_[i] != kOpen) continue;
                              if (outside_.empty() || outside_[i] <= reach) {
-                                 parts[chunk].push_back(place_[i]);
+                                 parts[chunk].push_back(static_cast<std::uint32_t>(i));
                              }
                          }
                      });
@@ -164,8 +163,7 @@ private:
                          TargetArea target;
                          PieceGrower grower;
                          for (std::size_t i = begin; i < end; ++i) {
-                             seeds[i] =
-                                 examine(grid_.order()[open[chosen[i]]], trial, target, grower);
+                             seeds[i] = examine(open[chosen[i]], trial, target, grower);
                          }
                      });
         // Curves first: a sheet that is laid across curves is left with none of their points.
@@ -173,17 +171,17 @@ private:
         take_care(seeds, false, execution);
         mark_tried(seeds, execution);
         for (const Seed& seed : seeds) {
-            if (seed.is_needless) care_[place_[seed.point]] = kOnSurface;
+            if (seed.is_needless) care_[seed.place] = kOnSurface;
         }
         std::ranges::copy_if(seeds, std::back_inserter(seeds_), &Seed::fits);
     }
 
     /// An LPF at a point: it fits if it promises no larger error than a smaller one there.
-    [[nodiscard]] Seed examine(std::uint32_t point, const Trial& trial, TargetArea& target,
+    [[nodiscard]] Seed examine(std::uint32_t place, const Trial& trial, TargetArea& target,
                                PieceGrower& grower) const {
         Seed seed;
-        seed.point = point;
-        seed.frame.centre = points_.col(point);
+        seed.place = place;
+        seed.frame.centre = points_.col(grid_.order()[place]);
         seed.frame.radius = trial.radius;
         shift_to_shape(seed.frame, target);
         seed.is_needless = is_cared_for(seed.frame.centre, target);
@@ -359,7 +357,7 @@ private:
 
     /// In the order of the grid, so that neighbours in space are neighbours in work.
     [[nodiscard]] Seeds result() {
-        std::ranges::stable_sort(seeds_, {}, [&](const Seed& s) { return place_[s.point]; });
+        std::ranges::stable_sort(seeds_, {}, &Seed::place);
         Seeds result;
         for (const Seed& seed : seeds_) {
             result.frames.push_back(seed.frame);
@@ -371,9 +369,8 @@ private:
     const Points& points_;
     const PointGrid& grid_;
     const SeedingParams& params_;
-    Indices place_;                   // in the grid's order, of each point
     std::vector<std::uint8_t> care_;  // Care of each point, in the grid's order
-    std::vector<double> outside_;     // how far from the region each is; empty: there is none
+    std::vector<double> outside_;     // how far from the region each is, likewise; empty: none given
     std::vector<Seed> seeds_;
 };
 
