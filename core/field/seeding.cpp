@@ -124,8 +124,8 @@ private:
         parallel_for(execution, distances.size(), kPointsPerChunk,
                      [&](std::size_t begin, std::size_t end, std::size_t) {
                          for (std::size_t i = begin; i < end; ++i) {
-                             distances[i] = distance_to(params_.region,
-                                                        points_.col(grid_.order()[i]));
+                             distances[i] =
+                                 distance_to(params_.region, points_.col(grid_.order()[i]));
                          }
                      });
         return distances;
@@ -370,7 +370,7 @@ private:
     const PointGrid& grid_;
     const SeedingParams& params_;
     std::vector<std::uint8_t> care_;  // Care of each point, in the grid's order
-    std::vector<double> outside_;     // how far from the region each is, likewise; empty: none given
+    std::vector<double> outside_;  // how far from the region each is, likewise; empty: none given
     std::vector<Seed> seeds_;
 };
 

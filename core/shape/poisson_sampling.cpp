@@ -45,8 +45,8 @@ private:
 };
 
 /// Points are chosen cell by cell, each cell in a random order of its own: what is near in space is
-/// near in memory then. Sides of cells [spacings], and no more of them along an axis than this, so that the
-/// number of a cell has 32 bits.
+/// near in memory then. Sides of cells [spacings], and no more of them along an axis than this, so
+/// that the number of a cell has 32 bits.
 constexpr double kCellSide = 8.0;
 constexpr double kMostCells = 1024;
 constexpr std::size_t kCellsPerChunk = 4;
@@ -54,8 +54,8 @@ constexpr std::size_t kCellsPerChunk = 4;
 /// The largest float below 1: a point just at the spacing may stay.
 constexpr float kInside = 0x1.fffffep-1F;
 
-/// Some places of a grid, grouped into cubic cells of eight colours: between two cells of one colour
-/// lies at least one of another, so that they do not see each other.
+/// Some places of a grid, grouped into cubic cells of eight colours: between two cells of one
+/// colour lies at least one of another, so that they do not see each other.
 class ColouredCells {
 public:
     static constexpr std::size_t kColours = 8;

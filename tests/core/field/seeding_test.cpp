@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/shape/poisson_sampling.h"
 #include "tests/core/clouds.h"
@@ -22,8 +23,10 @@ SeedingParams params_for(double noise) {
             .random_seed = 7};
 }
 
+PointGrid grid_of(const Points& points) { return {points, 0.55 * kRadius}; }
+
 Seeds place(const Points& points, double noise, int threads = 1) {
-    const PointGrid grid(points, 0.55 * kRadius);
+    const PointGrid grid = grid_of(points);
     return place_seeds(points, grid, params_for(noise), {.threads = threads});
 }
 
@@ -75,9 +78,12 @@ INSTANTIATE_TEST_SUITE_P(Clouds, SeedingOf, testing::ValuesIn(test::awkward_clou
 
 TEST(Seeding, WithoutNoiseIsThePoissonDiskSubset) {
     const Points points = test::make_sphere({.points = 4000, .noise = 0.02}).points;
+    const PointGrid grid = grid_of(points);
+    std::vector<std::uint32_t> all(grid.size());
+    std::iota(all.begin(), all.end(), 0U);
     std::vector<Eigen::Vector3d> expected;
-    for (const std::uint32_t i : poisson_disk_subset(points, 0.5 * kRadius, 7, {})) {
-        expected.emplace_back(points.col(i));
+    for (const std::uint32_t i : poisson_disk_subset(grid, all, 0.5 * kRadius, 7, {})) {
+        expected.emplace_back(points.col(grid.order()[i]));
     }
     const std::vector<Frame> seeds = seeds_of(points, 0.0);
     ASSERT_EQ(seeds.size(), expected.size());

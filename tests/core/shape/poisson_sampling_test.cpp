@@ -72,6 +72,21 @@ TEST(PoissonDisk, AnotherSeedChoosesOtherPoints) {
     EXPECT_EQ(poisson_disk_subset(points, 0.1, 1, {}), first);
 }
 
+TEST(PoissonDisk, HoldsAcrossTheCellsThatThreadsShare) {
+    const Points points = test::random_box(6000, 2);
+    const Indices one = poisson_disk_subset(points, 0.02, 3, {});
+    expect_poisson_disk(points, one, 0.02);
+    for (const int threads : {2, 5}) {
+        EXPECT_EQ(poisson_disk_subset(points, 0.02, 3, {.threads = threads}), one);
+    }
+}
+
+TEST(PoissonDisk, HoldsWhereAStrayPointIsFarAway) {
+    Points points = test::random_box(500, 2);
+    points.col(77) = Eigen::Vector3d(1e12, -1e12, 1e12);
+    expect_poisson_disk(points, poisson_disk_subset(points, 0.2, 3, {}), 0.2);
+}
+
 TEST(PoissonDisk, OfIdenticalPointsKeepsOne) {
     EXPECT_EQ(poisson_disk_subset(Points::Ones(3, 1000), 1e-12, 1, {}).size(), 1U);
 }
