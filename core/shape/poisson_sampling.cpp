@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "core/base/radix_sort.h"
 #include "core/base/random.h"
+#include "core/shape/coloured_cells.h"
 
 namespace lpf {
 namespace {
@@ -45,81 +45,12 @@ private:
 };
 
 /// Points are chosen cell by cell, each cell in a random order of its own: what is near in space is
-/// near in memory then. Sides of cells [spacings], and no more of them along an axis than this, so
-/// that the number of a cell has 32 bits.
+/// near in memory then. Sides of cells [spacings].
 constexpr double kCellSide = 8.0;
-constexpr double kMostCells = 1024;
 constexpr std::size_t kCellsPerChunk = 4;
 
 /// The largest float below 1: a point just at the spacing may stay.
 constexpr float kInside = 0x1.fffffep-1F;
-
-/// Some places of a grid, grouped into cubic cells of eight colours: between two cells of one
-/// colour lies at least one of another, so that they do not see each other.
-class ColouredCells {
-public:
-    static constexpr std::size_t kColours = 8;
-
-    struct Cell {
-        std::uint32_t key;    // tells cells apart
-        std::uint32_t begin;  // into the members
-        std::uint32_t end;
-    };
-
-    /// @param side of the cells [input length]
-    ColouredCells(const PointGrid& grid, std::span<const std::uint32_t> places, double side,
-                  const Execution& execution) {
-        Eigen::AlignedBox3d box;
-        for (const std::uint32_t place : places) box.extend(grid.point(place));
-        side = std::max(side, box.sizes().maxCoeff() / kMostCells);
-        const Coordinates halves = cell_of(box.min(), box.max(), side) / 2 + 1;
-        const std::uint32_t of_one_colour = halves.prod();
-        members_.resize(places.size());
-        parallel_for(execution, places.size(), kPointsPerChunk,
-                     [&](std::size_t begin, std::size_t end, std::size_t) {
-                         for (std::size_t i = begin; i < end; ++i) {
-                             const Coordinates at = cell_of(box.min(), grid.point(places[i]), side);
-                             const std::uint32_t colour =
-                                 at[0] % 2 + 2 * (at[1] % 2) + 4 * (at[2] % 2);
-                             const std::uint32_t row = at[2] / 2 * halves[1] + at[1] / 2;
-                             members_[i] = {colour * of_one_colour + row * halves[0] + at[0] / 2,
-                                            static_cast<std::uint32_t>(i)};
-                         }
-                     });
-        {
-            std::vector<Member> room;
-            radix_sort(members_, room, kColours * of_one_colour, execution);
-        }
-        find_cells(of_one_colour);
-    }
-
-    [[nodiscard]] const std::vector<Cell>& of_colour(std::size_t colour) const {
-        return cells_[colour];
-    }
-
-    /// The i-th member of all cells: its position among the places.
-    [[nodiscard]] std::uint32_t member(std::size_t i) const { return members_[i].second; }
-
-private:
-    using Member = Keyed<std::uint32_t>;
-    using Coordinates = Eigen::Array<std::uint32_t, 3, 1>;
-
-    static Coordinates cell_of(const Eigen::Vector3d& low, const Eigen::Vector3d& at, double side) {
-        return ((at - low) / side).array().cast<std::uint32_t>();
-    }
-
-    void find_cells(std::uint32_t of_one_colour) {
-        const auto count = static_cast<std::uint32_t>(members_.size());
-        for (std::uint32_t begin = 0, end = 0; begin < count; begin = end) {
-            const std::uint32_t key = members_[begin].first;
-            while (end < count && members_[end].first == key) ++end;
-            cells_[key / of_one_colour].push_back({key, begin, end});
-        }
-    }
-
-    std::vector<Member> members_;  // by cell; those of one cell ascending
-    std::vector<Cell> cells_[kColours];
-};
 
 double area_of(const Points& vertices, const Triangles& triangles, Eigen::Index f) {
     const Eigen::Vector3d corner = vertices.col(triangles(0, f));

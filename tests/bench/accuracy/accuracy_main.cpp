@@ -36,7 +36,7 @@ void print_header(std::size_t seeds) {
 /// Half of the range over the mean, in per cent.
 std::string scatter(const std::vector<double>& values) {
     const auto [low, high] = std::ranges::minmax(values);
-    return text(100 * (high - low) / (high + low)) + " %";
+    return text(high > low ? 100 * (high - low) / (high + low) : 0.0) + " %";
 }
 
 /// The figures of a case, one row each.
