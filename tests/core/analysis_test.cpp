@@ -165,15 +165,15 @@ TEST(Analysis, OfAPlaneNeedsNoDeformation) {
     params.probing = ProbingKind::NoiseAware;
     std::size_t flat = 0;
     std::size_t all = 0;
-    // One draw of seeds has 64 to 75 % of them off the border.
-    for (params.random_seed = 1; params.random_seed <= 4; ++params.random_seed) {
+    // One draw of seeds alone has 64 to 75 % of them off the border.
+    for (params.random_seed = 1; params.random_seed <= 6; ++params.random_seed) {
         const AnalysisResult result = analyze(shape_named("plane", 4000), params, {});
         all += result.frames.size();
         for (std::size_t j = 0; j < result.frames.size(); ++j) {
             flat += std::abs(result.frames[j].axes(2, 2)) > 0.999F && result.residuals[j] < 0.05F;
         }
     }
-    EXPECT_GT(static_cast<double>(flat), 0.65 * static_cast<double>(all));
+    EXPECT_GT(static_cast<double>(flat), 0.7 * static_cast<double>(all));
 }
 
 TEST(Analysis, TellsCurvesFromSurfaces) {

@@ -89,9 +89,6 @@ TEST(TiledDenoise, KnowsAllFieldsOnce) {
     const Scan scan("sphere");
     const AnalysisResult whole = denoise(scan.cloud, scan.params, {.threads = 2}).analysis;
     const AnalysisResult tiled = scan.tiled().analysis;
-    const auto fields = static_cast<double>(whole.frames.size());
-    // Borders of tiles take some 3 % more of them, by chance up to 6 %.
-    EXPECT_NEAR(static_cast<double>(tiled.frames.size()), fields, 0.08 * fields);
     EXPECT_EQ(tiled.codes.size(), tiled.frames.size());
     EXPECT_EQ(tiled.residuals.size(), tiled.frames.size());
     EXPECT_EQ(tiled.dimensions.size(), tiled.frames.size());
@@ -100,6 +97,20 @@ TEST(TiledDenoise, KnowsAllFieldsOnce) {
     EXPECT_LE(tiled.energy[0].pose, tiled.energy[0].learning);
     EXPECT_GT(tiled.energy[0].pose, 0.5 * whole.energy[0].pose);
     EXPECT_EQ(tiled.radius, whole.radius);
+}
+
+TEST(TiledDenoise, HasAboutAsManyFieldsAsTheWhole) {
+    Scan scan("sphere");
+    double whole = 0;
+    double tiled = 0;
+    // Of one draw of seeds alone, tiles have 2 to 6 % more.
+    std::uint64_t& draw = scan.params.analysis.random_seed;
+    for (draw = 1; draw <= 4; ++draw) {
+        const auto analysis = denoise(scan.cloud, scan.params, {.threads = 2}).analysis;
+        whole += static_cast<double>(analysis.frames.size());
+        tiled += static_cast<double>(scan.tiled().analysis.frames.size());
+    }
+    EXPECT_NEAR(tiled, whole, 0.05 * whole);
 }
 
 TEST(TiledDenoise, DoesNotDependOnTheNumberOfThreads) {
