@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "core/base/error.h"
+#include "core/deconvolution.h"
 #include "core/outer_iteration.h"
 #include "core/tiled_denoise.h"
 
@@ -66,6 +67,8 @@ DenoiseResult denoise(const Shape& shape, const DenoiseParams& params, const Exe
     if (shape.size() > kMostAtOnce) return denoise_tiles_of(shape.cloud.points, params, execution);
     Shape current;
     current.cloud.points = shape.cloud.points;
+    const double share = share_of_iterations(params);
+    const Execution iterations = part_of(execution, 0.0, share);
     std::vector<double> rms_moves;
     DenoiseParams now = params;
 
@@ -76,8 +79,12 @@ DenoiseResult denoise(const Shape& shape, const DenoiseParams& params, const Exe
         };
         AnalysisResult analysis =
             find_moves(current, now, {},
-                       step_of(execution, i, static_cast<std::size_t>(params.iterations)), move);
+                       step_of(iterations, i, static_cast<std::size_t>(params.iterations)), move);
         if (!goes_on(params, rms_moves)) {
+            if (is_deconvolved(params)) {
+                deconvolve(shape.cloud.points, params.analysis.noise, {}, current.cloud.points,
+                           part_of(execution, share, 1.0));
+            }
             return {std::move(current.cloud.points), std::move(rms_moves), std::move(analysis)};
         }
         prepare_next(std::move(analysis.dictionary), now);

@@ -28,6 +28,14 @@ bool goes_on(const DenoiseParams& params, const std::vector<double>& rms_moves) 
     return static_cast<int>(rms_moves.size()) < params.iterations && !still && last != 0;
 }
 
+bool is_deconvolved(const DenoiseParams& params) {
+    return params.analysis.noise > 0 && params.gamma == 0;
+}
+
+double share_of_iterations(const DenoiseParams& params) {
+    return is_deconvolved(params) ? 0.85 : 1.0;
+}
+
 void prepare_next(Dictionary dictionary, DenoiseParams& params) {
     params.analysis.initial_dictionary = std::move(dictionary);
     params.analysis.noise *= kNoiseLeft;

@@ -28,6 +28,13 @@ using TakeMoves = std::function<void(const std::vector<std::uint32_t>& order, co
 /// Whether another outer iteration is worth it after those that moved the points so far.
 [[nodiscard]] bool goes_on(const DenoiseParams& params, const std::vector<double>& rms_moves);
 
+/// Whether what noise has bent is to be unbent after the last outer iteration: where its level is
+/// known, and the full step is taken.
+[[nodiscard]] bool is_deconvolved(const DenoiseParams& params);
+
+/// Of all the work: that before the deconvolution.
+[[nodiscard]] double share_of_iterations(const DenoiseParams& params);
+
 /// Parameters of the next outer iteration: it starts from the dictionary of the one before, and
 /// there is less noise.
 void prepare_next(Dictionary dictionary, DenoiseParams& params);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/joined_progress.h"
+#include "core/deconvolution.h"
 #include "core/field_set.h"
 #include "core/outer_iteration.h"
 #include "core/shape/extent.h"
@@ -93,21 +94,30 @@ public:
           params_(params),
           sketch_(checked(make_sketch(source, execution))),
           partition_(sketch_, static_cast<double>(tiling.points)),
-          tiles_(source, partition_, reach_of_fields(params.analysis), execution),
+          tiles_(source, partition_,
+                 std::max(reach_of_fields(params.analysis),
+                          kReachOfDeconvolution * params.analysis.noise),
+                 execution),
           excerpt_(make_excerpt(source,
                                 Partition(sketch_, static_cast<double>(tiling.patch_points)),
                                 tiling.patches, reach_of_fields(params.analysis), execution)),
           counts_duplicates_(tiling.count_duplicates) {}
 
     TiledDenoising run(const Execution& execution) {
+        const double noise = params_.analysis.noise;
+        const double share = share_of_iterations(params_);
+        const Execution iterations = part_of(execution, 0.0, share);
         std::vector<double> rms_moves;
         for (std::size_t i = 0;; ++i) {
             const Execution outer =
-                step_of(execution, i, static_cast<std::size_t>(params_.iterations));
+                step_of(iterations, i, static_cast<std::size_t>(params_.iterations));
             if (!params_.analysis.keep_dictionary) learn(part_of(outer, 0.0, kShareOfLearning));
             Parts parts(tiles_.size());
             rms_moves.push_back(move_all(parts, part_of(outer, kShareOfLearning, 1.0)));
             if (!goes_on(params_, rms_moves)) {
+                if (is_deconvolved(params_)) {
+                    deconvolve_all(noise, part_of(execution, share, 1.0));
+                }
                 return {std::move(moves_), std::move(rms_moves), join(std::move(parts)),
                         duplicates_};
             }
@@ -155,18 +165,43 @@ private:
         std::vector<Eigen::Vector3f> moves = moves_;
         moves.resize(source_.size(), Eigen::Vector3f::Zero());
         std::vector<double> squares(tiles_.size(), 0.0);
-        JoinedProgress progress(execution, "denoise", "tiles", tiles_.size());
-        const int at_once = std::min(execution.threads, kTilesAtOnce);
-        Execution together = execution;
-        together.threads = at_once;
-        parallel_for(together, tiles_.size(), 1, [&](std::size_t tile, std::size_t, std::size_t) {
-            const Execution alone = progress.part(std::max(1, execution.threads / at_once));
+        for_each_tile("denoise", execution, [&](std::size_t tile, const Execution& alone) {
             parts[tile] = move_tile(tile, moves, squares[tile], alone);
-            source_.let_go();
         });
         moves_ = std::move(moves);
         const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
         return std::sqrt(sum / static_cast<double>(sketch_.of));
+    }
+
+    /// Moves all points to where they explain the scan. @param noise of the scan [input length]
+    void deconvolve_all(double noise, const Execution& execution) {
+        std::vector<Eigen::Vector3f> moves = moves_;
+        for_each_tile("deconvolve", execution, [&](std::size_t tile, const Execution& alone) {
+            const Box& box = partition_.boxes()[tile];
+            const std::span<const std::uint32_t> indices = tiles_.points(tile);
+            const Points scan = load(indices);
+            Points now = moved(scan, indices).cloud.points;
+            deconvolve(scan, noise, {box}, now, alone);
+            for (std::size_t i = 0; i < indices.size(); ++i) {
+                const auto at = static_cast<Eigen::Index>(i);
+                if (!box.holds(scan.col(at))) continue;
+                moves[indices[i]] = (now.col(at) - scan.col(at)).cast<float>();
+            }
+        });
+        moves_ = std::move(moves);
+    }
+
+    /// Calls body(tile, execution) for some tiles at a time.
+    template <typename Body>
+    void for_each_tile(std::string_view phase, const Execution& execution, const Body& body) {
+        JoinedProgress progress(execution, phase, "tiles", tiles_.size());
+        const int at_once = std::min(execution.threads, kTilesAtOnce);
+        Execution together = execution;
+        together.threads = at_once;
+        parallel_for(together, tiles_.size(), 1, [&](std::size_t tile, std::size_t, std::size_t) {
+            body(tile, progress.part(std::max(1, execution.threads / at_once)));
+            source_.let_go();
+        });
     }
 
     /// Moves the points that lie in a tile. @returns the LPFs there

@@ -98,6 +98,10 @@ void parallel_for(const Execution& execution, std::string_view phase, std::strin
                  });
 }
 
+void report_done(const Execution& execution, std::string_view phase, std::string_view unit) {
+    if (execution.progress) execution.progress({.phase = phase, .unit = unit, .fraction = 1.0});
+}
+
 Execution on_one_thread(const Execution& execution) {
     Execution sequential = execution;
     sequential.threads = 1;

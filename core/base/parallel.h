@@ -46,6 +46,9 @@ void throw_if_cancelled(const Execution& execution);
 /// The same for step number `step` of `steps` that take about as long each.
 [[nodiscard]] Execution step_of(const Execution& execution, std::size_t step, std::size_t steps);
 
+/// Reports that nothing is left to do.
+void report_done(const Execution& execution, std::string_view phase, std::string_view unit);
+
 /// Like parallel_for, and reports `phase` as chunks finish.
 void parallel_for(const Execution& execution, std::string_view phase, std::string_view unit,
                   std::size_t n, std::size_t chunk_size,
