@@ -28,8 +28,9 @@ constexpr double kPlaceField = 2.5e-6;
 constexpr double kGrowPoint = 1.2e-6;   // pieces of the shape
 constexpr double kTriangleProbe = 1.9;  // of a mesh, for one of points
 constexpr double kGatherPoint = 0.004e-6;
-constexpr double kVote = 0.035e-6;      // two rounds
-constexpr double kOutputPoint = 10e-6;  // proposals, consensus and sources of a resampling
+constexpr double kVote = 0.035e-6;        // two rounds
+constexpr double kUsualIterations = 1.5;  // of denoising, where a second may not be worth it
+constexpr double kOutputPoint = 10e-6;    // proposals, consensus and sources of a resampling
 constexpr double kEncodePoint = 0.3e-6;
 constexpr double kEncodePointApart = 1.5e-6;
 constexpr double kWriteByte = 4e-9;
@@ -79,7 +80,7 @@ Seconds denoising(const Workload& w, const DenoiseParams& p) {
     Seconds once = placing(w, p.analysis);
     once += analysis(w, p.analysis);
     once.shared += kVote * w.fields * w.points_per_field;
-    return p.iterations * once;
+    return (p.least_bent > 0 ? kUsualIterations : p.iterations) * once;
 }
 
 Seconds method(const Workload& w, const ResolvedParameters& p) {

@@ -24,6 +24,9 @@ constexpr double kSigmasInRadius = 3.0;
 constexpr double kDensityShare = 0.6;
 constexpr double kLeastDensityShare = 0.4;
 
+/// Denoising goes on where more of the points than this are not on flat parts.
+constexpr double kLeastBent = 0.1;
+
 constexpr int kPatternPoints = 193;
 constexpr int kFinePatternPoints = 793;
 constexpr int kAtoms = 16;
@@ -143,11 +146,14 @@ private:
         d.analysis = result_.analysis;
         d.iterations =
             choose("denoiseIterations", q_.denoise_iterations, auto_denoise_iterations());
+        if (!q_.denoise_iterations) d.least_bent = kLeastBent;
         d.gamma = choose("gamma", q_.gamma, Choice<double>{0.0, "the full step (0 stands for it)"});
     }
 
     [[nodiscard]] static Choice<int> auto_denoise_iterations() {
-        return {1, "one removes the noise; a second gains little"};
+        return {2,
+                "at most: one removes the noise; a second follows where much of the shape is not "
+                "flat within the reach of noise"};
     }
 
     void resolve_resample() {
@@ -178,6 +184,7 @@ private:
         r.denoise->analysis.iterations = 1;
         r.analysis.noise = std::max(kNoiseLeft * m_.noise, kLeastNoise * result_.analysis.radius);
         r.denoise->iterations = auto_denoise_iterations().value;
+        r.denoise->least_bent = kLeastBent;
     }
 
     void warn() {

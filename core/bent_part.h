@@ -13,8 +13,8 @@ namespace lpf {
 /// follow each other.
 struct BentPart {
     std::vector<std::uint32_t> points;  ///< that matter to it, as indices into the cloud
-    std::vector<std::uint32_t> bent;    ///< places in `points` of those that belong to it, ascending
-    double near = 0.0;                  ///< points within the reach of noise of one, on average
+    std::vector<std::uint32_t> bent;  ///< places in `points` of those that belong to it, ascending
+    double near = 0.0;                ///< points within the reach of noise of one, on average
 };
 
 /// Finds what is not flat: where the points within the reach of noise are neither a plane nor a

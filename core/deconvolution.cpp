@@ -66,8 +66,8 @@ public:
         : bent_(part.bent),
           noise_(noise),
           stride_(stride_to(kMostOfShape, part.near)),
-          background_(static_cast<float>(
-              kBackground * sum_on_surface(part.near / static_cast<double>(stride_)))),
+          background_(static_cast<float>(kBackground *
+                                         sum_on_surface(part.near / static_cast<double>(stride_)))),
           shape_(std::move(shape)),
           scan_(one_in(stride_to(kMostOfScan, part.near), scan), kCell * noise, execution),
           scan_groups_(groups_of_scan(execution)) {}
@@ -114,8 +114,7 @@ private:
 
     void leave_the_thin(const Execution& execution) {
         const PointGrid shape = grid_of_shape(execution);
-        const std::vector<std::uint8_t> is_thin =
-            find_thin(shape, part_of(execution, 0.0, 0.5));
+        const std::vector<std::uint8_t> is_thin = find_thin(shape, part_of(execution, 0.0, 0.5));
         std::vector<std::uint8_t> leads(shape.size(), 1);
         for (std::size_t i = 0; i < bent_.size(); ++i) {
             if (is_thin[i] && is_in_grid(bent_[i])) leads[bent_[i] / stride_] = 0;
@@ -124,7 +123,8 @@ private:
                      kPointsPerFollowers, [&](std::size_t begin, std::size_t end, std::size_t) {
                          NearPoints near;
                          for (std::size_t i = begin; i < end; ++i) {
-                             if (is_thin[i]) shape_.col(bent_[i]) = follow(bent(i), shape, leads, near);
+                             if (is_thin[i])
+                                 shape_.col(bent_[i]) = follow(bent(i), shape, leads, near);
                          }
                      });
     }
@@ -254,16 +254,21 @@ private:
 
 }  // namespace
 
-void deconvolve(const Points& scan, double noise, const Region& region, Points& shape,
-                const Execution& execution) {
-    const BentPart part = find_bent_part(shape, noise, region, kReachOfDeconvolution / 2 * noise,
-                                         part_of(execution, 0.0, 0.2));
-    if (part.bent.empty()) return report_done(execution, "deconvolve", "groups");
+std::vector<std::uint32_t> deconvolve(const Points& scan, double noise, const Region& region,
+                                      Points& shape, const Execution& execution) {
+    BentPart part = find_bent_part(shape, noise, region, kReachOfDeconvolution / 2 * noise,
+                                   part_of(execution, 0.0, 0.2));
+    if (part.bent.empty()) return {};
     const Execution rest = part_of(execution, 0.2, 1.0);
     const Points moved = Deconvolution(part, shape(Eigen::all, part.points),
                                        scan(Eigen::all, part.points), noise, rest)
                              .run(rest);
-    for (const std::uint32_t i : part.bent) shape.col(part.points[i]) = moved.col(i);
+    for (std::uint32_t& i : part.bent) {
+        const std::uint32_t point = part.points[i];
+        shape.col(point) = moved.col(i);
+        i = point;
+    }
+    return std::move(part.bent);
 }
 
 }  // namespace lpf

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "core/base/parallel.h"
 #include "core/shape/box.h"
 #include "core/shape/point_cloud.h"
@@ -23,7 +26,8 @@ inline constexpr double kReachOfDeconvolution = 24.0;
 /// @param noise  their standard deviation off the shape [input length], > 0
 /// @param region where points are wanted; those further off stay
 /// @param shape  in and out: the same points denoised, 3 x N
-void deconvolve(const Points& scan, double noise, const Region& region, Points& shape,
-                const Execution& execution);
+/// @returns indices of the points that do not lie on flat parts, in no order
+std::vector<std::uint32_t> deconvolve(const Points& scan, double noise, const Region& region,
+                                      Points& shape, const Execution& execution);
 
 }  // namespace lpf

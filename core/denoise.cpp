@@ -67,24 +67,27 @@ DenoiseResult denoise(const Shape& shape, const DenoiseParams& params, const Exe
     if (shape.size() > kMostAtOnce) return denoise_tiles_of(shape.cloud.points, params, execution);
     Shape current;
     current.cloud.points = shape.cloud.points;
-    const double share = share_of_iterations(params);
-    const Execution iterations = part_of(execution, 0.0, share);
     std::vector<double> rms_moves;
     DenoiseParams now = params;
+    double bent = 0.0;
 
     for (std::size_t i = 0;; ++i) {
+        const Execution part = part_of_iteration(execution, params, i);
         const auto move = [&](const std::vector<std::uint32_t>& order, const Moves& moves) {
             rms_moves.push_back(
-                move_points(order, moves, step_length(params), current.cloud.points, execution));
+                move_points(order, moves, step_length(params), current.cloud.points, part));
         };
         AnalysisResult analysis =
-            find_moves(current, now, {},
-                       step_of(iterations, i, static_cast<std::size_t>(params.iterations)), move);
-        if (!goes_on(params, rms_moves)) {
-            if (is_deconvolved(params)) {
-                deconvolve(shape.cloud.points, params.analysis.noise, {}, current.cloud.points,
-                           part_of(execution, share, 1.0));
-            }
+            find_moves(current, now, {}, part_of(part, 0.0, kShareOfMoves), move);
+        if (i == 0 && is_deconvolved(params)) {
+            bent = static_cast<double>(deconvolve(shape.cloud.points, params.analysis.noise, {},
+                                                  current.cloud.points,
+                                                  part_of(part, kShareOfMoves, 1.0))
+                                           .size()) /
+                   static_cast<double>(shape.size());
+        }
+        if (!goes_on(params, rms_moves, bent)) {
+            report_done(execution, "deconvolve", "points");
             return {std::move(current.cloud.points), std::move(rms_moves), std::move(analysis)};
         }
         prepare_next(std::move(analysis.dictionary), now);

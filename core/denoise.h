@@ -6,7 +6,7 @@
 
 namespace lpf {
 
-/// Share of the noise that is left after an outer iteration, at most.
+/// Share of the noise that is left after denoising, at most.
 inline constexpr double kNoiseLeft = 0.25;
 
 /// Parameters of denoising (paper Sec. 4.2).
@@ -16,11 +16,12 @@ struct DenoiseParams {
     double gamma = 0.0;       ///< Eq. 12: q <- (q + gamma q~)/(1 + gamma); 0 = the full step
     bool sharp = false;       ///< vote for sharp edges: uniform weights, error power 3
     double stop_ratio = 0.1;  ///< stop when the RMS move falls under this share of the first
+    double least_bent = 0.0;  ///< stop when less than this share of the points was deconvolved
 };
 
 struct DenoiseResult {
     Points points;                  ///< as many as the input, in its order
-    std::vector<double> rms_moves;  ///< RMS move of each outer iteration [input length]
+    std::vector<double> rms_moves;  ///< RMS move to the consensus, of each iteration [input length]
     AnalysisResult analysis;        ///< of the last outer iteration
 };
 

@@ -25,15 +25,21 @@ using TakeMoves = std::function<void(const std::vector<std::uint32_t>& order, co
 /// @returns what a move is multiplied with [input length / radius]
 [[nodiscard]] double step_length(const DenoiseParams& params);
 
-/// Whether another outer iteration is worth it after those that moved the points so far.
-[[nodiscard]] bool goes_on(const DenoiseParams& params, const std::vector<double>& rms_moves);
-
-/// Whether what noise has bent is to be unbent after the last outer iteration: where its level is
-/// known, and the full step is taken.
+/// Whether the first outer iteration ends with a deconvolution: where the noise is known, and the
+/// full step is taken.
 [[nodiscard]] bool is_deconvolved(const DenoiseParams& params);
 
-/// Of all the work: that before the deconvolution.
-[[nodiscard]] double share_of_iterations(const DenoiseParams& params);
+/// Whether another outer iteration is worth it after those that moved the points so far.
+/// @param bent share of the points that was deconvolved
+[[nodiscard]] bool goes_on(const DenoiseParams& params, const std::vector<double>& rms_moves,
+                           double bent);
+
+/// Of an outer iteration: all but the deconvolution.
+inline constexpr double kShareOfMoves = 0.85;
+
+/// The part of the work that outer iteration i is. Those that may not be worth it are a small one.
+[[nodiscard]] Execution part_of_iteration(const Execution& execution, const DenoiseParams& params,
+                                          std::size_t i);
 
 /// Parameters of the next outer iteration: it starts from the dictionary of the one before, and
 /// there is less noise.

@@ -105,19 +105,19 @@ public:
 
     TiledDenoising run(const Execution& execution) {
         const double noise = params_.analysis.noise;
-        const double share = share_of_iterations(params_);
-        const Execution iterations = part_of(execution, 0.0, share);
         std::vector<double> rms_moves;
+        double bent = 0.0;
         for (std::size_t i = 0;; ++i) {
-            const Execution outer =
-                step_of(iterations, i, static_cast<std::size_t>(params_.iterations));
-            if (!params_.analysis.keep_dictionary) learn(part_of(outer, 0.0, kShareOfLearning));
+            const Execution part = part_of_iteration(execution, params_, i);
+            const Execution moving = part_of(part, 0.0, kShareOfMoves);
+            if (!params_.analysis.keep_dictionary) learn(part_of(moving, 0.0, kShareOfLearning));
             Parts parts(tiles_.size());
-            rms_moves.push_back(move_all(parts, part_of(outer, kShareOfLearning, 1.0)));
-            if (!goes_on(params_, rms_moves)) {
-                if (is_deconvolved(params_)) {
-                    deconvolve_all(noise, part_of(execution, share, 1.0));
-                }
+            rms_moves.push_back(move_all(parts, part_of(moving, kShareOfLearning, 1.0)));
+            if (i == 0 && is_deconvolved(params_)) {
+                bent = deconvolve_all(noise, part_of(part, kShareOfMoves, 1.0));
+            }
+            if (!goes_on(params_, rms_moves, bent)) {
+                report_done(execution, "deconvolve", "tiles");
                 return {std::move(moves_), std::move(rms_moves), join(std::move(parts)),
                         duplicates_};
             }
@@ -173,22 +173,25 @@ private:
         return std::sqrt(sum / static_cast<double>(sketch_.of));
     }
 
-    /// Moves all points to where they explain the scan. @param noise of the scan [input length]
-    void deconvolve_all(double noise, const Execution& execution) {
+    /// Moves points to where they explain the scan. @param noise of the scan [input length]
+    /// @returns the share of the points that was deconvolved
+    double deconvolve_all(double noise, const Execution& execution) {
         std::vector<Eigen::Vector3f> moves = moves_;
+        std::vector<std::size_t> bent(tiles_.size(), 0);
         for_each_tile("deconvolve", execution, [&](std::size_t tile, const Execution& alone) {
             const Box& box = partition_.boxes()[tile];
             const std::span<const std::uint32_t> indices = tiles_.points(tile);
             const Points scan = load(indices);
             Points now = moved(scan, indices).cloud.points;
-            deconvolve(scan, noise, {box}, now, alone);
-            for (std::size_t i = 0; i < indices.size(); ++i) {
-                const auto at = static_cast<Eigen::Index>(i);
-                if (!box.holds(scan.col(at))) continue;
-                moves[indices[i]] = (now.col(at) - scan.col(at)).cast<float>();
+            for (const std::uint32_t i : deconvolve(scan, noise, {box}, now, alone)) {
+                if (!box.holds(scan.col(i))) continue;
+                moves[indices[i]] = (now.col(i) - scan.col(i)).cast<float>();
+                ++bent[tile];
             }
         });
         moves_ = std::move(moves);
+        return static_cast<double>(std::accumulate(bent.begin(), bent.end(), std::size_t{0})) /
+               static_cast<double>(sketch_.of);
     }
 
     /// Calls body(tile, execution) for some tiles at a time.

@@ -20,7 +20,7 @@ struct TilingParams {
 
 struct TiledDenoising {
     std::vector<Eigen::Vector3f> moves;  ///< of each point [input length]; 0 where it is not finite
-    std::vector<double> rms_moves;       ///< RMS move of each outer iteration [input length]
+    std::vector<double> rms_moves;       ///< RMS move to the consensus, of each iteration
     /// Of the last outer iteration, tile by tile. Energies are means over the LPFs of all tiles,
     /// so that those near borders count more than once.
     AnalysisResult analysis;

@@ -15,9 +15,9 @@ float gaussian_sum(const float place[3], float sharpness, const float* x, const 
 
 /// With w the weights times exp(-d^2 / 2), and (dx, dy, dz) what leads from `place` to a point.
 struct GaussianMoments {
-    float weight;      ///< sum of w
-    float x, y, z;     ///< sums of w dx, w dy, w dz
-    float by_chance;   ///< sum of (w d)^2: the squared length of (x, y, z) if all were independent
+    float weight;     ///< sum of w
+    float x, y, z;    ///< sums of w dx, w dy, w dz
+    float by_chance;  ///< sum of (w d)^2: the squared length of (x, y, z) if all were independent
 };
 GaussianMoments gaussian_moments(const float place[3], const float* x, const float* y,
                                  const float* z, const float* weight, std::size_t n);

@@ -47,15 +47,17 @@ TEST(AutoParameterRules, EachTaskHasItsIterations) {
     EXPECT_EQ(resolve(Task::Analyze, 0.1).analysis.iterations, 10);
 }
 
-TEST(AutoParameterRules, OneOuterIterationWhateverTheNoise) {
+TEST(AutoParameterRules, ASecondOuterIterationIsForWhatIsNotFlat) {
     ParameterRequest request;
     request.radius = 1.0;
     for (const double noise : {0.001, 0.059, 0.061, 0.3}) {
-        EXPECT_EQ(resolve(Task::Denoise, noise, request).denoise.iterations, 1);
-        EXPECT_EQ(resolve(Task::Resample, noise, request).resample.denoise->iterations, 1);
+        EXPECT_EQ(resolve(Task::Denoise, noise, request).denoise.iterations, 2);
+        EXPECT_GT(resolve(Task::Denoise, noise, request).denoise.least_bent, 0.0);
+        EXPECT_EQ(resolve(Task::Resample, noise, request).resample.denoise->iterations, 2);
     }
     request.denoise_iterations = 3;
     EXPECT_EQ(resolve(Task::Denoise, 0.1, request).denoise.iterations, 3);
+    EXPECT_EQ(resolve(Task::Denoise, 0.1, request).denoise.least_bent, 0.0);
 }
 
 TEST(AutoParameterRules, ResamplingOfACloudDenoisesOnceAndEndsAtBorders) {

@@ -42,8 +42,8 @@ TEST(GaussianKernels, SumIsThatOfGaussians) {
             for (std::size_t i = 0; i < n; ++i) {
                 expected += exact(cloud.squared(i, place, double{sharpness}));
             }
-            const float sum = gaussian_sum(place, sharpness, cloud.x.data(), cloud.y.data(),
-                                           cloud.z.data(), n);
+            const float sum =
+                gaussian_sum(place, sharpness, cloud.x.data(), cloud.y.data(), cloud.z.data(), n);
             EXPECT_NEAR(double{sum}, expected, 0.005 * static_cast<double>(n)) << n;
             EXPECT_NEAR(double{sum}, expected, 0.03 * expected + 0.005) << n;
         }
@@ -62,9 +62,8 @@ TEST(GaussianKernels, CountsAPointOnThePlaceOnceAndNothingBeyondTheReach) {
 TEST(GaussianKernels, MomentsAreWeightedByGaussians) {
     const float place[3] = {-0.2F, 0.5F, 0.0F};
     const Cloud cloud(203);
-    const GaussianMoments m =
-        gaussian_moments(place, cloud.x.data(), cloud.y.data(), cloud.z.data(),
-                         cloud.weight.data(), cloud.x.size());
+    const GaussianMoments m = gaussian_moments(place, cloud.x.data(), cloud.y.data(),
+                                               cloud.z.data(), cloud.weight.data(), cloud.x.size());
     double weight = 0;
     double along_x = 0;
     double by_chance = 0;
