@@ -56,6 +56,10 @@ void validate(const DenoiseParams& params) {
     if (!(params.stop_ratio >= 0 && params.stop_ratio <= 1)) {
         throw Error(ErrorCode::InvalidParameter, "The stop ratio must be 0 to 1.", "stopRatio");
     }
+    if (!(params.least_bent >= 0 && params.least_bent <= 1)) {
+        throw Error(ErrorCode::InvalidParameter,
+                    "The least share of points that is deconvolved must be 0 to 1.", "leastBent");
+    }
     if (!(params.gamma >= 0 && std::isfinite(params.gamma))) {
         throw Error(ErrorCode::InvalidParameter, "Gamma must be 0 or more.", "gamma");
     }

@@ -9,7 +9,7 @@ namespace {
 
 /// Share of the noise that the next outer iteration finds. It is less where it counts for most, at
 /// edges, than what LPFs leave anywhere.
-constexpr double kNoiseBetween = 0.15;
+constexpr double kNoiseBetween = 0.2;
 
 }  // namespace
 

@@ -16,7 +16,7 @@ namespace {
 constexpr double kNoise = 0.05;
 
 Points deconvolved(const Points& scan, Points shape, const Region& region = {}, int threads = 2) {
-    deconvolve(scan, kNoise, region, shape, {.threads = threads});
+    (void)deconvolve(scan, kNoise, region, shape, {.threads = threads});
     return shape;
 }
 
@@ -112,6 +112,20 @@ TEST(Deconvolution, PointsFarFromTheRegionStay) {
     EXPECT_LT(most_within, 0.2 * kNoise);
 }
 
+TEST(Deconvolution, TellsWhichPointsAreNotOnFlatParts) {
+    const test::TestShape cube = noisy_cube();
+    Points shape = rounded(cube);
+    const Points before = shape;
+    const auto bent = deconvolve(cube.points, kNoise, {}, shape, {.threads = 2});
+    std::vector<std::uint8_t> is_bent(150000, 0);
+    for (const std::uint32_t i : bent) is_bent[i] = 1;
+    for (Eigen::Index i = 0; i < before.cols(); ++i) {
+        ASSERT_TRUE(is_bent[static_cast<std::size_t>(i)] || shape.col(i) == before.col(i));
+    }
+    EXPECT_GT(bent.size(), 30000U);
+    EXPECT_LT(bent.size(), 90000U);
+}
+
 TEST(Deconvolution, IsTheSameForAnyNumberOfThreads) {
     const test::TestShape cube = noisy_cube();
     const Points before = rounded(cube);
@@ -136,15 +150,19 @@ TEST(Deconvolution, FewPointsAreLeftAlone) {
     EXPECT_EQ(deconvolved(one, one), one);
 }
 
-TEST(Deconvolution, FollowsTheOuterIterationsOfAFullStep) {
+TEST(Deconvolution, EndsTheFirstOuterIterationIfThatTakesTheFullStep) {
     const test::TestShape cube = noisy_cube();
     const Shape shape{{cube.points, {}}, {}};
     const Measurements measured = measure(cube.points, {.threads = 2});
     DenoiseParams params = resolve_parameters(Task::Denoise, shape, measured, {}).denoise;
+    ASSERT_EQ(params.iterations, 2);
     const Points full = denoise(shape, params, {.threads = 2}).points;
+    params.iterations = 1;
+    const Points once = denoise(shape, params, {.threads = 2}).points;
     params.gamma = 1e9;  // as good as full, but asked for
     const Points rounded = denoise(shape, params, {.threads = 2}).points;
-    EXPECT_LT(error_at_edges(full, cube), 0.85 * error_at_edges(rounded, cube));
+    EXPECT_LT(error_at_edges(once, cube), 0.85 * error_at_edges(rounded, cube));
+    EXPECT_LT(error_at_edges(full, cube), 0.85 * error_at_edges(once, cube));
 }
 
 }  // namespace

@@ -206,6 +206,17 @@ TEST(Denoise, RunsTheIterationsAskedForOrStopsWhenLittleMoves) {
     EXPECT_EQ(denoise(shape, params, {}).rms_moves.size(), 2U);
 }
 
+TEST(Denoise, ASecondIterationFollowsWhereMuchIsNotFlat) {
+    const auto iterations = [](const Points& points) {
+        const Shape shape = cloud_of(points);
+        const Measurements measured = measure(points, {.threads = 2});
+        const auto params = resolve_parameters(Task::Denoise, shape, measured, {}).denoise;
+        return denoise(shape, params, {.threads = 2}).rms_moves.size();
+    };
+    EXPECT_EQ(iterations(test::make_plane({.points = 40000, .noise = 0.02}).points), 1U);
+    EXPECT_EQ(iterations(test::make_cube({.points = 40000, .noise = 0.05}).points), 2U);
+}
+
 TEST(Denoise, ReportsTheRmsOfItsMoves) {
     const Points noisy = test::make_plane({.points = 1500, .noise = 0.03}).points;
     DenoiseParams params = noise_aware(0.3);

@@ -170,6 +170,8 @@ TEST(DenoiseParameters, AreCheckedEachUnderItsName) {
     EXPECT_EQ(field_of([&](auto& p) { p.gamma = infinity; }), "gamma");
     EXPECT_EQ(field_of([](auto& p) { p.stop_ratio = -0.1; }), "stopRatio");
     EXPECT_EQ(field_of([](auto& p) { p.stop_ratio = 1.1; }), "stopRatio");
+    EXPECT_EQ(field_of([](auto& p) { p.least_bent = -0.1; }), "leastBent");
+    EXPECT_EQ(field_of([](auto& p) { p.least_bent = 1.1; }), "leastBent");
 }
 
 }  // namespace

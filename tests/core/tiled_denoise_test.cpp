@@ -137,6 +137,7 @@ TEST(TiledDenoise, ASecondIterationStartsFromWhereTheFirstEnded) {
     Scan scan("sphere", 20'000);
     scan.params.iterations = 2;
     scan.params.stop_ratio = 0;
+    scan.params.least_bent = 0;
     const TiledDenoising tiled = scan.tiled();
     ASSERT_EQ(tiled.rms_moves.size(), 2U);
     EXPECT_LT(tiled.rms_moves[1], 0.5 * tiled.rms_moves[0]);
