@@ -7,6 +7,7 @@
 #include <limits>
 #include <stop_token>
 
+#include "core/auto_parameters.h"
 #include "core/base/error.h"
 #include "tests/core/clouds.h"
 #include "tests/support/metrics.h"
