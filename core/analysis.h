@@ -34,6 +34,7 @@ struct AnalysisParams {
     /// curve then; 0 = unknown: an LPF is about all that its target area holds.
     double noise = 0.0;
     bool adapt_radius = false;     ///< LPFs as large as the shape around them allows
+    double least_radius = 0.0;     ///< of those that adapt [input length]
     bool principal_frames = true;  ///< start from principal directions; false = random (Sec. 3.1)
     int pose_iterations = 2;       ///< as-orthogonal-as-possible passes (Sec. 2.2), 0 to 50
     int atoms = 16;                ///< d, 1 to 256 (Sec. 3.6)

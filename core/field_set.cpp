@@ -37,6 +37,7 @@ SeedingParams seeding_params(const AnalysisParams& params) {
             .target_radius = params.target_radius,
             .noise = params.noise,
             .adapt_radius = params.adapt_radius,
+            .least_radius = params.least_radius,
             .random_seed = params.random_seed};
 }
 

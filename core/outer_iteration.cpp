@@ -1,7 +1,9 @@
 #include "core/outer_iteration.h"
 
+#include <algorithm>
 #include <utility>
 
+#include "core/field/seeding.h"
 #include "core/field_set.h"
 
 namespace lpf {
@@ -51,6 +53,9 @@ Execution part_of_iteration(const Execution& execution, const DenoiseParams& par
 
 void prepare_next(Dictionary dictionary, DenoiseParams& params) {
     params.analysis.initial_dictionary = std::move(dictionary);
+    // What was smaller than noise allowed is gone: smaller LPFs would find nothing more.
+    params.analysis.least_radius =
+        std::max(params.analysis.least_radius, least_radius(params.analysis.noise));
     params.analysis.noise *= kNoiseBetween;
 }
 

@@ -82,7 +82,9 @@ std::vector<double> radii_to_try(const SeedingParams& params) {
     for (const double size : kSizes) {
         const double radius = size * params.radius;
         if (size > 1 && params.noise < kLeastNoiseToAverage * params.radius) continue;
-        if (radius >= kLeastSigmasOfSize * params.noise) radii.push_back(radius);
+        if (radius >= std::max(params.least_radius, least_radius(params.noise))) {
+            radii.push_back(radius);
+        }
     }
     if (radii.empty()) radii.push_back(params.radius);
     return radii;
@@ -375,6 +377,8 @@ private:
 };
 
 }  // namespace
+
+double least_radius(double noise) { return kLeastSigmasOfSize * noise; }
 
 double largest_radius(const SeedingParams& params) { return radii_to_try(params).front(); }
 

@@ -20,12 +20,16 @@ struct SeedingParams {
     /// all that its target area holds.
     double noise = 0.0;
     bool adapt_radius = false;  ///< LPFs as large as the shape around them allows
+    double least_radius = 0.0;  ///< of those that adapt [input length]
     std::uint64_t random_seed = 1;
     Region region = {};  ///< LPFs are only placed where their target areas reach into it
 };
 
 /// The radius of the largest LPFs that the parameters may lead to [input length].
 [[nodiscard]] double largest_radius(const SeedingParams& params);
+
+/// LPFs that adapt are no smaller in so much noise, but for the last that is left [input length].
+[[nodiscard]] double least_radius(double noise);
 
 /// LPFs that are placed but have no pose yet.
 struct Seeds {

@@ -44,6 +44,24 @@ double least_share(const Eigen::Vector3d& point, const std::vector<Frame>& seeds
     return least;
 }
 
+TEST(Seeding, LpfsThatAdaptAreNoSmallerThanAskedFor) {
+    const double noise = 0.01;
+    const Points points = test::make_cube({.points = 20000, .noise = noise}).points;
+    const PointGrid grid = grid_of(points);
+    SeedingParams params = params_for(noise);
+    const auto smallest = [&] {
+        double least = 1e300;
+        for (const Frame& seed : place_seeds(points, grid, params, {.threads = 2}).frames) {
+            least = std::min(least, seed.radius);
+        }
+        return least;
+    };
+    EXPECT_GE(smallest(), least_radius(noise));
+    EXPECT_LT(smallest(), 0.7 * kRadius);
+    params.least_radius = 0.7 * kRadius;
+    EXPECT_GE(smallest(), 0.7 * kRadius * (1 - 1e-12));
+}
+
 class SeedingOf : public testing::TestWithParam<test::NamedCloud> {};
 
 TEST_P(SeedingOf, CoversEveryPointWithinTheSpacing) {
