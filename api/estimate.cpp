@@ -120,6 +120,7 @@ constexpr double kApartFace = 200;
 constexpr double kTreePoint = 44;
 constexpr double kGridPoint = 66;
 constexpr double kBallotPoint = 56;  // sums, and the moves of two rounds
+constexpr double kBentPoint = 30;    // copies of what is deconvolved, if that is all of a cloud
 constexpr double kTilePoint = 180;
 constexpr double kPointsAround = 1.3;  // those of a tile with those around it, for its own
 constexpr double kStreamedPoint = 18;  // moves, and numbers of the points of tiles
@@ -152,10 +153,11 @@ double method_bytes(const Workload& w, const ResolvedParameters& p) {
     const double fields = w.fields * (kField + 4.0 * a.atoms);
     const double grid = kGridPoint * w.probed_points;
     double bytes = learning + fields + grid;
-    if (w.task == Task::Denoise) bytes += (kPosition + kBallotPoint) * w.points;
+    if (w.task == Task::Denoise) bytes += (kPosition + kBallotPoint + kBentPoint) * w.points;
     if (w.task == Task::Resample) {
         const double candidates = w.fields * places_of_field(w, p);
-        const double noisy = p.resample.denoise ? (kPosition + kBallotPoint) * w.points : 0;
+        const double noisy =
+            p.resample.denoise ? (kPosition + kBallotPoint + kBentPoint) * w.points : 0;
         const double consenting =
             std::min(kCandidate * candidates, kBlockOfCandidates) + kAgreedPoint * w.output_points;
         bytes += std::max(noisy, consenting);
