@@ -1,10 +1,10 @@
 #include "core/bent_part.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <atomic>
 
 #include "core/base/gaussian_kernels.h"
+#include "core/base/raise.h"
+#include "core/field/local_probing_field.h"
 #include "core/near_groups.h"
 #include "core/shape/point_grid.h"
 
@@ -31,23 +31,13 @@ constexpr double kCell = 2.0;
 constexpr std::size_t kGroupsPerChunk = 32;
 
 /// Whether the points about a place are anything but a plane or a line that goes on [sigma].
-bool bends(const NearPoints& near) {
+bool bends(const TargetArea& near) {
     if (near.size < kFewestOfPlane) return true;
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-    for (std::size_t i = 0; i < near.size; ++i) {
-        const Eigen::Vector3d p = Eigen::Vector3f(near.x[i], near.y[i], near.z[i]).cast<double>();
-        mean += p;
-        covariance += p * p.transpose();
-    }
-    mean /= static_cast<double>(near.size);
-    covariance = covariance / static_cast<double>(near.size) - mean * mean.transpose();
-    const Eigen::Vector3d variance = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>()
-                                         .computeDirect(covariance, Eigen::EigenvaluesOnly)
-                                         .eigenvalues();
+    const PrincipalDirections principal = principal_directions(near);
+    const Eigen::Vector3d variance = principal.variances.cast<double>();
     const bool is_line = variance[1] < kFlat * kFlat;
-    const bool is_plane = variance[0] < kFlat * kFlat && variance[1] > kLeastWidth * variance[2];
-    const bool ends = mean.squaredNorm() > kEven * variance.sum();
+    const bool is_plane = variance[2] < kFlat * kFlat && variance[1] > kLeastWidth * variance[0];
+    const bool ends = principal.mean.cast<double>().squaredNorm() > kEven * variance.sum();
     return ends || (!is_line && !is_plane);
 }
 
@@ -65,7 +55,7 @@ double mean_near(const PointGrid& grid, double noise) {
     return sum / places;
 }
 
-/// Groups of points that are looked at one by one.
+/// Looks at groups of points, and marks those that are bent and what matters to them.
 class Search {
 public:
     Search(const Points& shape, double noise, const Execution& execution)
@@ -84,7 +74,7 @@ public:
             grid_.size(), kCell * noise_, [&](std::size_t i) { return grid_.point(i); }, execution);
         parallel_for(execution, "deconvolve", "groups", groups.size(), kGroupsPerChunk,
                      [&](std::size_t begin, std::size_t end, std::size_t) {
-                         NearPoints near;
+                         TargetArea near;
                          for (std::size_t g = begin; g < end; ++g) {
                              if (distance_to(region, groups[g].centre) > margin) continue;
                              look_at(groups[g], near);
@@ -102,22 +92,13 @@ public:
 private:
     enum Role : std::uint8_t { kIdle, kMatters, kBent };
 
-    void look_at(const NearGroup& group, NearPoints& near) {
-        const auto radius = static_cast<float>(group.radius / noise_);
-        some_.gather(group.centre, noise_, kGaussianReach + radius, near);
+    void look_at(const NearGroup& group, TargetArea& near) {
+        gather_around(some_, group, noise_, kGaussianReach, near);
         if (!bends(near)) return;
         // Points explain the scan within their reach, and so do others within theirs.
-        grid_.gather(group.centre, noise_, 2 * kGaussianReach + radius, near);
-        for (std::size_t k = 0; k < near.size; ++k) raise(near.index[k], kMatters);
-        for (std::size_t i = group.begin; i < group.end; ++i) raise(i, kBent);
-    }
-
-    /// The order of threads makes no difference.
-    void raise(std::size_t i, Role to) {
-        const std::atomic_ref<std::uint8_t> role(role_[i]);
-        std::uint8_t now = role.load(std::memory_order_relaxed);
-        while (now < to && !role.compare_exchange_weak(now, to, std::memory_order_relaxed)) {
-        }
+        gather_around(grid_, group, noise_, 2 * kGaussianReach, near);
+        for (std::size_t k = 0; k < near.size; ++k) raise(role_[near.index[k]], kMatters);
+        for (std::size_t i = group.begin; i < group.end; ++i) raise(role_[i], kBent);
     }
 
     double noise_;

@@ -197,18 +197,14 @@ private:
                      [&](std::size_t begin, std::size_t end, std::size_t) {
                          NearPoints near;
                          for (std::size_t g = begin; g < end; ++g) {
-                             gather(bent, groups[g], kGaussianReach + kLongestWay, near);
+                             gather_around(bent, groups[g], noise_, kGaussianReach + kLongestWay,
+                                           near);
                              is_near[g] = near.size > 0;
                          }
                      });
         std::size_t at = 0;
         std::erase_if(groups, [&](const NearGroup&) { return !is_near[at++]; });
         return groups;
-    }
-
-    void gather(const PointGrid& grid, const NearGroup& group, float reach,
-                NearPoints& near) const {
-        grid.gather(group.centre, noise_, reach + static_cast<float>(group.radius / noise_), near);
     }
 
     /// Calls body(group, near) with all of a grid that is in the reach of a group's points.
@@ -219,7 +215,7 @@ private:
                      [&](std::size_t begin, std::size_t end, std::size_t) {
                          NearPoints near;
                          for (std::size_t g = begin; g < end; ++g) {
-                             gather(grid, groups[g], kGaussianReach, near);
+                             gather_around(grid, groups[g], noise_, kGaussianReach, near);
                              body(groups[g], near);
                          }
                      });

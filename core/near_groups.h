@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/shape/point_grid.h"
 
 namespace lpf {
 
@@ -48,6 +49,13 @@ template <typename At>
     std::vector<NearGroup> groups;
     for (const auto& part : of_chunks) groups.insert(groups.end(), part.begin(), part.end());
     return groups;
+}
+
+/// All points of a grid within `reach` units of some point of a group, and a few more; relative to
+/// the group's centre. @param unit of the results [input length]
+inline void gather_around(const PointGrid& grid, const NearGroup& group, double unit, float reach,
+                          NearPoints& near) {
+    grid.gather(group.centre, unit, reach + static_cast<float>(group.radius / unit), near);
 }
 
 }  // namespace lpf

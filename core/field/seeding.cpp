@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "core/base/raise.h"
 #include "core/field/piece_growth.h"
 #include "core/shape/poisson_sampling.h"
 
@@ -349,11 +350,7 @@ private:
     /// Raises the care of points. The order of threads makes no difference.
     void mark(const TargetArea& target, Care care) {
         for (std::size_t i = 0; i < target.size; ++i) {
-            std::atomic_ref<std::uint8_t> mark(care_[target.index[i]]);
-            std::uint8_t now = mark.load(std::memory_order_relaxed);
-            while (now < care &&
-                   !mark.compare_exchange_weak(now, care, std::memory_order_relaxed)) {
-            }
+            raise(care_[target.index[i]], care);
         }
     }
 
