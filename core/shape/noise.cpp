@@ -20,17 +20,19 @@ constexpr int kMostDoublings = 32;    // from a cell to the whole shape
 constexpr double kPointsInCell = 40;  // of the grid that they are looked for in, at most
 constexpr std::size_t kFewestForPlane = 8;
 
-/// Points of the first ball that the noise is looked for in.
-constexpr std::size_t kPointsInSmallBall = 24;
+/// Points of the first balls that the noise is looked for in.
+constexpr std::size_t kPointsInSmallBall = 50;
 
-/// A ball narrower than this many sigma cuts the noise off and makes it look smaller than it is.
-/// The smallest ball that is wide enough tells noise from shape: what curves at its scale is shape.
-constexpr double kSigmasInBall = 4.0;
-constexpr double kGrowth = 1.2;
+/// Of a ball narrower than this many sigma, nobody can say how much of the noise it cuts off. The
+/// smallest balls that are wide enough tell noise from shape: what bends at their scale is shape.
+constexpr double kSigmasInBall = 3.0;
+constexpr double kGrowth = 1.1;
 constexpr double kMostGrowth = 1.4;
 constexpr int kMostSteps = 1000;      // coordinates may be as large as numbers go
-constexpr double kShareOfStep = 0.9;  // of the way to the ball that the spread asks for
-constexpr double kNearlyWide = 1.1;
+constexpr double kShareOfStep = 0.9;  // of the way to the balls that the spread asks for
+
+/// Hidden sheets show in what is this much wider.
+constexpr double kWider = 4.0 / 3;
 
 /// A ball larger than this share of the diagonal shows the whole shape, not what it is made of.
 constexpr double kLargestBall = 0.25;
@@ -74,14 +76,14 @@ struct Sampled {
 
 /// Edges and thin parts add to the spread, so that less than the median is noise. Of balls on a
 /// plane, the spread at this quantile lies so many standard deviations below the mean.
-constexpr double kQuantile = 0.2;
-constexpr double kDeviationsBelow = 0.842;
+constexpr double kQuantile = 0.1;
+constexpr double kDeviationsBelow = 1.282;
 
 /// Balls with no more than this times that spread tell whether it is all noise.
-constexpr double kNearQuantile = 1.4;
+constexpr double kNearQuantile = 1.2;
 
 /// Sheets that add a smaller share to the variance cannot be told from the shape of chance.
-constexpr double kLeastHidden = 0.33;
+constexpr double kLeastHidden = 0.4;
 constexpr double kMostHidden = 0.8;
 
 /// What the ball around a place of the shape says.
@@ -98,64 +100,77 @@ Eigen::Vector3d mean_of(const NearPoints& ball) {
     return sum / static_cast<double>(ball.size);
 }
 
-/// The spread in the smallest ball around a place of the shape that is wide enough for it; nothing
-/// where none is: the point is alone, or all around it is thinner than it is rough.
+/// The spread about a place of the shape; nothing where a point is alone.
 Reading noise_around(const PointGrid& grid, const Eigen::Vector3d& point, double radius,
-                     double largest, NearPoints& ball, std::vector<double>& heights) {
-    double growth = kGrowth;
-    for (int i = 0; i < kMostSteps && radius <= largest; ++i, radius *= growth) {
-        growth = kGrowth;
-        grid.gather(point, radius, 1.0F, ball);
-        if (ball.size < kFewestForPlane) continue;
-        double wanted = kSigmasInBall * spread_in(ball, heights).deviation;
-        if (wanted <= kNearlyWide) {
-            // The point is off the shape; the mean of those around it is nearer.
-            grid.gather(point + radius * mean_of(ball), radius, 1.0F, ball);
-            if (ball.size < kFewestForPlane) continue;
-            const Spread spread = spread_in(ball, heights);
-            wanted = kSigmasInBall * spread.deviation;
-            if (wanted <= 1) {
-                const double chance = 1 + kDeviationsBelow / std::sqrt(2 * spread.points);
-                return {radius * uncut_deviation(spread) * chance, spread};
-            }
-        }
-        growth = std::clamp(kShareOfStep * wanted, kGrowth, kMostGrowth);
-    }
-    return {};
+                     NearPoints& ball, std::vector<double>& heights) {
+    grid.gather(point, radius, 1.0F, ball);
+    if (ball.size < kFewestForPlane) return {};
+    // The point is off the shape; the mean of those around it is nearer.
+    grid.gather(point + radius * mean_of(ball), radius, 1.0F, ball);
+    if (ball.size < kFewestForPlane) return {};
+    const Spread spread = spread_in(ball, heights);
+    const double chance = 1 + kDeviationsBelow / std::sqrt(2 * spread.freedom);
+    return {radius * uncut(chance * spread.deviation), spread};
 }
 
-/// How much of the variance is not noise but two sheets that it hides, by the shape of what lies
-/// off the plane: the kurtosis of noise is 3, that of two sheets with the share s is 3 - 2 s^2.
-double share_of_hidden_sheets(const std::vector<Reading>& readings, double deviation) {
-    double sum = 0.0;
-    double count = 0.0;
-    for (const Reading& reading : readings) {
-        if (reading.spread.is_parted || reading.noise > kNearQuantile * deviation) continue;
-        sum += reading.spread.kurtosis;
-        count += 1;
-    }
-    const double share = count > 0 ? std::sqrt(std::max(0.0, 3 - sum / count) / 2) : 0.0;
-    return share < kLeastHidden ? 0.0 : std::min(share, kMostHidden);
-}
-
-/// A low quantile over a sample of the points, each in a ball of its own.
-double noise_of(const Sampled& cloud, const PointGrid& grid, double radius, double largest,
-                const Execution& execution) {
+std::vector<Reading> read_noise(const Sampled& cloud, const PointGrid& grid, double radius,
+                                const Execution& execution) {
     const std::vector<Eigen::Index> chosen = cloud.some(kNoiseSample);
     std::vector<Reading> readings(chosen.size());
     parallel_for(execution, chosen.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
         NearPoints ball;
         std::vector<double> heights;
         for (std::size_t i = begin; i < end; ++i) {
-            readings[i] =
-                noise_around(grid, cloud.points.col(chosen[i]), radius, largest, ball, heights);
+            readings[i] = noise_around(grid, cloud.points.col(chosen[i]), radius, ball, heights);
         }
     });
     std::erase_if(readings, [](const Reading& reading) { return reading.noise < 0; });
+    // Off a curve, noise has two directions, and the smaller spread of the two says too little.
+    const auto is_curve = [](const Reading& reading) { return reading.spread.is_curve; };
+    if (!std::ranges::all_of(readings, is_curve)) std::erase_if(readings, is_curve);
+    return readings;
+}
+
+double low_quantile(const std::vector<Reading>& readings) {
     std::vector<double> deviations;
     for (const Reading& reading : readings) deviations.push_back(reading.noise);
-    const double deviation = quantile(deviations, kQuantile);
-    return deviation * std::sqrt(1 - share_of_hidden_sheets(readings, deviation));
+    return quantile(deviations, kQuantile);
+}
+
+/// How much of the variance is not noise but two sheets that it hides, by the shape of what lies
+/// off the surface: the kurtosis of noise is 3, that of two sheets with the share s is 3 - 2 s^2.
+double share_of_hidden_sheets(const std::vector<Reading>& readings, double noise) {
+    std::vector<double> kurtoses;
+    for (const Reading& reading : readings) {
+        if (reading.spread.is_parted || reading.noise > kNearQuantile * noise) continue;
+        kurtoses.push_back(reading.spread.kurtosis);
+    }
+    if (kurtoses.empty()) return 0.0;
+    const double share = std::sqrt(std::max(0.0, 3 - median(kurtoses)) / 2);
+    return share < kLeastHidden ? 0.0 : std::min(share, kMostHidden);
+}
+
+/// What is noise of what looks like it in balls that hold both of two hidden sheets.
+double noise_of_hidden_sheets(const std::vector<Reading>& readings) {
+    const double noise = low_quantile(readings);
+    return noise * std::sqrt(1 - share_of_hidden_sheets(readings, noise));
+}
+
+/// A low quantile over a sample of the points, in the smallest balls that are wide enough for it;
+/// 0 where none are: all is thinner than it is rough.
+double noise_of(const Sampled& cloud, const PointGrid& grid, double radius, double largest,
+                const Execution& execution) {
+    for (int i = 0; i < kMostSteps && radius <= largest; ++i) {
+        const std::vector<Reading> readings = read_noise(cloud, grid, radius, execution);
+        const double noise = low_quantile(readings);
+        const double wanted = kSigmasInBall * noise / radius;
+        if (!readings.empty() && wanted <= 1) {
+            const auto wider = read_noise(cloud, grid, kWider * radius, execution);
+            return std::min(noise, noise_of_hidden_sheets(wider));
+        }
+        radius *= std::clamp(kShareOfStep * wanted, kGrowth, kMostGrowth);
+    }
+    return 0.0;
 }
 
 /// Distances of a point to those around it [input length].

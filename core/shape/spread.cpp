@@ -13,11 +13,15 @@ constexpr double kTwoSheets = 0.23;
 constexpr int kSplitRounds = 4;
 constexpr double kFewestForTwo = 50;  // of fewer points, chance makes two groups
 
+/// A set is a curve if its second extent, less the third, is a smaller share of the first.
+constexpr double kCurve = 0.2;
+
 constexpr std::size_t kMostInBall = 3000;
 
-/// A ball cuts off what noise carries beyond it: the spread in one of radius R is too small by
-/// about this much times (spread / R)^2.
-constexpr double kCutOff = 1.9;
+/// A quadric takes up so many degrees of freedom; fewer points than these get a plane.
+constexpr double kInQuadric = 6;
+constexpr double kInPlane = 3;
+constexpr double kFewestForQuadric = 14;
 
 /// The kurtosis of n values of noise is too small by about this much over n.
 constexpr double kKurtosisOfFew = 6.0;
@@ -54,41 +58,110 @@ double kurtosis_of(const std::vector<double>& heights) {
     return second > 0 ? n * fourth / (second * second) + kKurtosisOfFew / n : 3.0;
 }
 
+/// The points of a ball in the frame of the plane that suits them best.
+class OnPlane {
+public:
+    /// A large ball is thinned: a few thousand points say as much.
+    explicit OnPlane(const NearPoints& ball)
+        : ball_(ball),
+          stride_(1 + ball.size / kMostInBall),
+          count_(static_cast<double>(1 + (ball.size - 1) / stride_)) {
+        Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+        for_each([&](const Eigen::Vector3d& p) {
+            mean_ += p;
+            squares += p * p.transpose();
+        });
+        mean_ /= count_;
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+        solver.computeDirect(squares / count_ - mean_ * mean_.transpose());
+        axes_ = solver.eigenvectors().transpose();
+        extents_ = solver.eigenvalues();
+    }
+
+    [[nodiscard]] double count() const { return count_; }
+
+    [[nodiscard]] bool are_curve() const {
+        return extents_[1] - extents_[0] < kCurve * (extents_[2] - extents_[0]);
+    }
+
+    /// Heights above the plane.
+    void heights(std::vector<double>& heights) const {
+        heights.clear();
+        for_each([&](const Eigen::Vector3d& p) { heights.push_back(axes_.row(0) * (p - mean_)); });
+    }
+
+    /// Takes the quadric off that suits the heights best: also where a shape is round, what is left
+    /// is noise.
+    void take_off_quadric(std::vector<double>& heights) const {
+        using Coefficients = Eigen::Matrix<double, 6, 1>;
+        const auto monomials = [&](const Eigen::Vector3d& p) {
+            const Eigen::Vector3d q = axes_ * (p - mean_);
+            const double u = q[1];
+            const double v = q[2];
+            return Coefficients(1, u, v, u * u, u * v, v * v);
+        };
+        Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Zero();
+        Coefficients with_heights = Coefficients::Zero();
+        auto height = heights.begin();
+        for_each([&](const Eigen::Vector3d& p) {
+            const Coefficients row = monomials(p);
+            squares.selfadjointView<Eigen::Lower>().rankUpdate(row);
+            with_heights += *height++ * row;
+        });
+        const Coefficients quadric =
+            squares.selfadjointView<Eigen::Lower>().ldlt().solve(with_heights);
+        height = heights.begin();
+        for_each([&](const Eigen::Vector3d& p) { *height++ -= quadric.dot(monomials(p)); });
+    }
+
+private:
+    template <typename Body>
+    void for_each(const Body& body) const {
+        for (std::size_t i = 0; i < ball_.size; i += stride_) {
+            body(Eigen::Vector3d(ball_.x[i], ball_.y[i], ball_.z[i]));
+        }
+    }
+
+    const NearPoints& ball_;
+    std::size_t stride_;
+    double count_;
+    Eigen::Vector3d mean_ = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d axes_;     // row 0: the normal
+    Eigen::Vector3d extents_;  // variances along them
+};
+
+double mean_square(const std::vector<double>& heights) {
+    double sum = 0.0;
+    for (const double h : heights) sum += h * h;
+    return sum / static_cast<double>(heights.size());
+}
+
 }  // namespace
 
 Spread spread_in(const NearPoints& ball, std::vector<double>& heights) {
-    // A large ball is thinned: its covariance is as good from a few thousand points.
-    const std::size_t stride = 1 + ball.size / kMostInBall;
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-    double count = 0;
-    for (std::size_t i = 0; i < ball.size; i += stride, ++count) {
-        const Eigen::Vector3d p(ball.x[i], ball.y[i], ball.z[i]);
-        mean += p;
-        squares += p * p.transpose();
-    }
-    mean /= count;
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-    solver.computeDirect(squares / count - mean * mean.transpose());
-    const Eigen::Vector3d normal = solver.eigenvectors().col(0);
-    const double offset = normal.dot(mean);
-    heights.clear();
-    for (std::size_t i = 0; i < ball.size; i += stride) {
-        heights.push_back(normal.dot(Eigen::Vector3d(ball.x[i], ball.y[i], ball.z[i])) - offset);
-    }
-    // Three degrees of freedom went into the plane.
-    const double unbiased = count / std::max(1.0, count - 3);
-    const double whole = std::max(0.0, solver.eigenvalues()[0]);
+    const OnPlane points(ball);
+    const double count = points.count();
+    const bool is_quadric = count >= kFewestForQuadric;
+    points.heights(heights);
+    if (is_quadric) points.take_off_quadric(heights);
+    const double freedom = std::max(1.0, count - (is_quadric ? kInQuadric : kInPlane));
+    const double whole = mean_square(heights);
     const double parted = count < kFewestForTwo ? whole : variance_of_two(heights);
     const bool is_parted = parted < kTwoSheets * whole;
-    return {.deviation = std::sqrt(unbiased * (is_parted ? parted : whole)),
+    return {.deviation = std::sqrt(count / freedom * (is_parted ? parted : whole)),
             .kurtosis = kurtosis_of(heights),
-            .points = count,
-            .is_parted = is_parted};
+            .freedom = freedom,
+            .is_parted = is_parted,
+            .is_curve = points.are_curve()};
 }
 
-double uncut_deviation(const Spread& spread) {
-    return spread.deviation * (1 + kCutOff * spread.deviation * spread.deviation);
+// A ball of radius R about a place of a surface holds a disk of area pi (R^2 - h^2) of what noise
+// carries to the height h, so that the variance s^2 of the heights is sigma^2 (R^2 - 3 sigma^2) /
+// (R^2 - sigma^2). This is solved for sigma, with R = 1.
+double uncut(double deviation) {
+    const double square = deviation * deviation;
+    const double sum = 1 + square;
+    return std::sqrt((sum - std::sqrt(std::max(0.0, sum * sum - 12 * square))) / 6);
 }
 
 }  // namespace lpf
