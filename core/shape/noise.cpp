@@ -31,8 +31,10 @@ constexpr double kMostGrowth = 1.4;
 constexpr int kMostSteps = 1000;      // coordinates may be as large as numbers go
 constexpr double kShareOfStep = 0.9;  // of the way to the balls that the spread asks for
 
-/// Hidden sheets show in what is this much wider.
+/// What is this much wider shows hidden sheets, and how much the bends of the shape add to noise:
+/// what a quadric leaves of them grows with the cube of the width.
 constexpr double kWider = 4.0 / 3;
+constexpr double kBentShare = 1 / (kWider * kWider * kWider - 1);
 
 /// A ball larger than this share of the diagonal shows the whole shape, not what it is made of.
 constexpr double kLargestBall = 0.25;
@@ -166,7 +168,8 @@ double noise_of(const Sampled& cloud, const PointGrid& grid, double radius, doub
         const double wanted = kSigmasInBall * noise / radius;
         if (!readings.empty() && wanted <= 1) {
             const auto wider = read_noise(cloud, grid, kWider * radius, execution);
-            return std::min(noise, noise_of_hidden_sheets(wider));
+            const double bends = kBentShare * std::max(0.0, low_quantile(wider) - noise);
+            return std::min(std::max(0.0, noise - bends), noise_of_hidden_sheets(wider));
         }
         radius *= std::clamp(kShareOfStep * wanted, kGrowth, kMostGrowth);
     }
