@@ -12,10 +12,10 @@
 namespace lpf {
 namespace {
 
-/// Further off than this many sigma, a point is not of the piece. On curves, which noise leaves in
-/// two directions, a narrower piece keeps crossing ones apart.
-constexpr float kSigmasOffSurface = 2.6F;
-constexpr float kSigmasOffCurve = 2.2F;
+/// Further off than this many sigma, a point is not of the piece. Where curves cross, a narrower
+/// piece keeps them apart.
+constexpr float kSigmasOff = 2.6F;
+constexpr float kSigmasOffCrossing = 2.2F;
 
 /// Without noise, this share of the radius is as near as a parabola comes to a shape.
 constexpr float kLeastNoise = 0.01F;
@@ -52,10 +52,10 @@ Piece PieceGrower::grow(const TargetArea& target, float noise, float extent) {
         piece = grow_as(kSurface, noise);
     }
     if (!piece.exists()) return piece;
-    follow_crossing_curve(sample_, kSigmasOffCurve, piece);
-    widen_to_tube(sample_, kSigmasOffSurface, piece);
-    fold_at_crease(sample_, kSigmasOffSurface, piece);
-    split_sheets(sample_, kSigmasOffSurface, piece);
+    follow_crossing_curve(sample_, kSigmasOffCrossing, piece);
+    widen_to_tube(sample_, kSigmasOff, piece);
+    fold_at_crease(sample_, kSigmasOff, piece);
+    split_sheets(sample_, kSigmasOff, piece);
     return piece;
 }
 
@@ -116,7 +116,7 @@ bool PieceGrower::straighten(std::size_t ball, Piece& piece) {
     if (!piece.exists()) piece.dimension = local_dimension(principal, members_.size);
     piece.origin = principal.mean;
     piece.axes = principal.axes;
-    piece.reach = piece.noise * (piece.is_curve() ? kSigmasOffCurve : kSigmasOffSurface);
+    piece.reach = piece.noise * kSigmasOff;
     std::fill(std::begin(piece.coefficients), std::end(piece.coefficients), 0.0F);
     sample_.look_along(piece, sample_.points_in(ball));
     return true;
