@@ -14,7 +14,6 @@ namespace lpf {
 namespace {
 
 constexpr std::size_t kSpacingSample = 4096;
-constexpr std::size_t kNoiseSample = 400;
 constexpr std::size_t kPointsInBall = 150;
 constexpr int kMostDoublings = 32;    // from a cell to the whole shape
 constexpr double kPointsInCell = 40;  // of the grid that they are looked for in, at most
@@ -22,6 +21,11 @@ constexpr std::size_t kFewestForPlane = 8;
 
 /// Points of the first balls that the noise is looked for in.
 constexpr std::size_t kPointsInSmallBall = 50;
+
+/// Balls are looked at until they hold so many points in all: small ones say little each.
+constexpr double kPointsToLookAt = 60000;
+constexpr double kFewestBalls = 400;
+constexpr double kMostBalls = 1600;
 
 /// Of a ball narrower than this many sigma, nobody can say how much of the noise it cuts off. The
 /// smallest balls that are wide enough tell noise from shape: what bends at their scale is shape.
@@ -115,9 +119,11 @@ Reading noise_around(const PointGrid& grid, const Eigen::Vector3d& point, double
     return {radius * uncut(chance * spread.deviation), spread};
 }
 
+/// @param points_in_ball as a rule
 std::vector<Reading> read_noise(const Sampled& cloud, const PointGrid& grid, double radius,
-                                const Execution& execution) {
-    const std::vector<Eigen::Index> chosen = cloud.some(kNoiseSample);
+                                double points_in_ball, const Execution& execution) {
+    const double balls = std::clamp(kPointsToLookAt / points_in_ball, kFewestBalls, kMostBalls);
+    const std::vector<Eigen::Index> chosen = cloud.some(static_cast<std::size_t>(balls));
     std::vector<Reading> readings(chosen.size());
     parallel_for(execution, chosen.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
         NearPoints ball;
@@ -160,14 +166,21 @@ double noise_of_hidden_sheets(const std::vector<Reading>& readings) {
 
 /// A low quantile over a sample of the points, in the smallest balls that are wide enough for it;
 /// 0 where none are: all is thinner than it is rough.
-double noise_of(const Sampled& cloud, const PointGrid& grid, double radius, double largest,
-                const Execution& execution) {
+/// @param radius   of the smallest balls that may do
+/// @param measured tells how dense the cloud is, and how large
+double noise_of(const Sampled& cloud, const PointGrid& grid, double radius,
+                const Measurements& measured, const Execution& execution) {
+    const auto read = [&](double size) {
+        const double share = size / measured.density_radius;
+        return read_noise(cloud, grid, size, kPointsInBall * share * share, execution);
+    };
+    const double largest = std::max(radius, kLargestBall * measured.diagonal);
     for (int i = 0; i < kMostSteps && radius <= largest; ++i) {
-        const std::vector<Reading> readings = read_noise(cloud, grid, radius, execution);
+        const std::vector<Reading> readings = read(radius);
         const double noise = low_quantile(readings);
         const double wanted = kSigmasInBall * noise / radius;
         if (!readings.empty() && wanted <= 1) {
-            const auto wider = read_noise(cloud, grid, kWider * radius, execution);
+            const std::vector<Reading> wider = read(kWider * radius);
             const double bends = kBentShare * std::max(0.0, low_quantile(wider) - noise);
             return std::min(std::max(0.0, noise - bends), noise_of_hidden_sheets(wider));
         }
@@ -252,8 +265,7 @@ Measurements measure(const Sampled& cloud, const Execution& execution) {
     const double cell = cell_of_some_points(points, kPointsInCell);
     const PointGrid grid(points, cell, execution);
     const double radius = measure_spacing(cloud, grid, cell, result, execution);
-    result.noise =
-        noise_of(cloud, grid, radius, std::max(radius, kLargestBall * result.diagonal), execution);
+    result.noise = noise_of(cloud, grid, radius, result, execution);
     return result;
 }
 

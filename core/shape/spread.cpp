@@ -14,7 +14,7 @@ constexpr int kSplitRounds = 4;
 constexpr double kFewestForTwo = 50;  // of fewer points, chance makes two groups
 
 /// A set is a curve if its second extent, less the third, is a smaller share of the first.
-constexpr double kCurve = 0.2;
+constexpr double kCurve = 0.3;
 
 constexpr std::size_t kMostInBall = 3000;
 

@@ -72,7 +72,23 @@ TEST(Measure, ThicknessOfAPlateIsNotTakenForNoise) {
 TEST(Measure, EdgesAreNotTakenForNoise) {
     // A wide ball is needed; most balls that are wide enough hold an edge.
     const Points points = test::make_cube({.points = 40000, .noise = 0.2}).points;
-    EXPECT_NEAR(measure(points, {}).noise, 0.2, 0.2 * 0.2);
+    EXPECT_NEAR(measure(points, {}).noise, 0.2, 0.06 * 0.2);
+}
+
+TEST(Measure, ThinLimbsAreNotTakenForNoise) {
+    for (const test::TestShape& body : test::make_small_bodies(3)) {
+        const double noise = std::sqrt((body.points - body.clean).squaredNorm() /
+                                       static_cast<double>(body.points.size()));
+        EXPECT_NEAR(measure(body.points, {}).noise, noise, 0.12 * noise) << body.name;
+    }
+}
+
+TEST(Measure, CurvesAreNotTakenForLessNoise) {
+    double sum = 0.0;
+    for (const std::uint64_t seed : {1, 2, 3}) {
+        sum += measure(test::make_curvenet({100000, 0.124, seed}).points, {}).noise;
+    }
+    EXPECT_NEAR(sum / 3, 0.124, 0.04 * 0.124);
 }
 
 class NoiseOf : public testing::TestWithParam<double> {};
@@ -80,15 +96,13 @@ class NoiseOf : public testing::TestWithParam<double> {};
 TEST_P(NoiseOf, APlaneIsMeasured) {
     const double sigma = GetParam();
     const Points points = test::make_plane({.points = 20000, .noise = sigma}).points;
-    // The ball cuts the tails of the noise off a little.
-    EXPECT_NEAR(measure(points, {}).noise, sigma, 0.15 * sigma);
+    EXPECT_NEAR(measure(points, {}).noise, sigma, 0.06 * sigma);
 }
 
 TEST_P(NoiseOf, ASphereIsMeasured) {
     const double sigma = GetParam();
     const Points points = test::make_sphere({.points = 40000, .noise = sigma}).points;
-    // The curvature of the ball adds a little.
-    EXPECT_NEAR(measure(points, {}).noise, sigma, 0.25 * sigma);
+    EXPECT_NEAR(measure(points, {}).noise, sigma, 0.06 * sigma);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sigmas, NoiseOf, testing::Values(0.01, 0.03, 0.06), [](const auto& test) {

@@ -36,14 +36,44 @@ TEST(Spread, IsTheNoiseOffAPlane) {
     const Spread spread = spread_of(2500, 0.1, 0);
     EXPECT_NEAR(spread.deviation, 0.1, 0.004);
     EXPECT_NEAR(spread.kurtosis, 3.0, 0.25);
-    EXPECT_EQ(spread.points, 2500);
+    EXPECT_EQ(spread.freedom, 2500 - 6) << "a quadric has six coefficients";
     EXPECT_FALSE(spread.is_parted);
 }
 
 TEST(Spread, GivesBackWhatTheBallHasCutOff) {
-    const Spread wide = spread_of(2500, 0.25, 0);
-    EXPECT_LT(wide.deviation, 0.24);
-    EXPECT_NEAR(uncut_deviation(wide), 0.25, 0.01);
+    for (const double noise : {0.05, 0.1, 0.2, 0.25, 0.3}) {
+        const Spread spread = spread_of(2500, noise, 0);
+        EXPECT_NEAR(uncut(spread.deviation), noise, 0.05 * noise);
+    }
+    EXPECT_LT(spread_of(2500, 0.3, 0).deviation, 0.27) << "much is cut off";
+    EXPECT_EQ(uncut(0.0), 0.0);
+}
+
+TEST(Spread, OfABallFullOfNoiseIsTooWideForIt) {
+    const Spread spread = spread_of(2500, 5.0, 0);
+    EXPECT_GT(uncut(spread.deviation), 1.0 / 3) << "three sigma do not fit into the ball";
+}
+
+TEST(Spread, LeavesOutWhatIsRound) {
+    NearPoints ball = sheets_in_ball(2500, 0.1, 0);
+    for (std::size_t i = 0; i < ball.size; ++i) {
+        ball.z[i] += 0.4F * ball.x[i] * ball.x[i] - 0.3F * ball.x[i] * ball.y[i];
+    }
+    std::vector<double> heights;
+    EXPECT_NEAR(spread_in(ball, heights).deviation, 0.1, 0.006);
+}
+
+TEST(Spread, OfAFewPointsIsOffAPlane) {
+    EXPECT_EQ(spread_of(13, 0.1, 0).freedom, 13 - 3);
+    EXPECT_EQ(spread_of(14, 0.1, 0).freedom, 14 - 6);
+}
+
+TEST(Spread, TellsACurve) {
+    EXPECT_FALSE(spread_of(500, 0.1, 0).is_curve);
+    NearPoints ball = sheets_in_ball(500, 0.1, 0);
+    for (std::size_t i = 0; i < ball.size; ++i) ball.y[i] = -ball.z[(i + 1) % ball.size];
+    std::vector<double> heights;
+    EXPECT_TRUE(spread_in(ball, heights).is_curve);
 }
 
 TEST(Spread, IsOffTheNearerOfTwoPlanesThatStandApart) {
@@ -60,7 +90,7 @@ TEST(Spread, ShowsSheetsThatNoiseHidesByItsKurtosis) {
 
 TEST(Spread, OfManyPointsIsThatOfSomeOfThem) {
     const Spread spread = spread_of(30000, 0.1, 0);
-    EXPECT_LT(spread.points, 3001);
+    EXPECT_LT(spread.freedom, 3001);
     EXPECT_NEAR(spread.deviation, 0.1, 0.004);
 }
 
