@@ -46,15 +46,14 @@ void vote_on(const PointGrid& grid, const FieldSet& fields, const Voter& voter,
                          fields.gather_ball(j, target);
                          const DensityMap density = voter.density(j, target);
                          const FieldImage image = voter.image(j, worker);
-                         const MisfitMap misfit =
-                             voter.misfit(j, target, Voter::field_at(target, image));
+                         const Fit fit = voter.fit(j, target, Voter::field_at(target, image));
                          fields.gather_ball(j, grid, target);
                          if (target.size == 0) continue;
                          Arrows field = Voter::field_at(target, image);
                          // The points lie on the shape already: they are not to slide along it.
-                         field.x.setZero();
-                         if (fields.pieces[j].dimension == kSurface) field.y.setZero();
-                         voter.cast(j, target, field, {misfit, density}, ballot);
+                         if (fit.is_plain) Voter::leave_only_sliding(fields.pieces[j], field);
+                         Voter::stop_sliding(fields.pieces[j], field);
+                         voter.cast(j, target, field, {fit.misfit, density}, ballot);
                      }
                  });
 }

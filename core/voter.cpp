@@ -79,12 +79,27 @@ Arrows Voter::field_at(const TargetArea& target, const FieldImage& image) {
     return field;
 }
 
-MisfitMap Voter::misfit(std::size_t j, const TargetArea& target, const Arrows& field) const {
-    MisfitMap misfit;
-    if (fields_.pieces[j].exists()) {
-        misfit.measure(fields_.pieces[j], target, field.y.data(), field.z.data());
-    }
-    return misfit;
+void Voter::stop_sliding(const Piece& piece, Arrows& field) {
+    field.x.setZero();
+    if (piece.dimension == kSurface) field.y.setZero();
+}
+
+void Voter::leave_only_sliding(const Piece& piece, Arrows& field) {
+    if (piece.is_curve()) field.y.setZero();
+    field.z.setZero();
+}
+
+Fit Voter::fit(std::size_t j, const TargetArea& target, const Arrows& field) const {
+    const Piece& piece = fields_.pieces[j];
+    Fit fit;
+    if (!piece.exists()) return fit;
+    fit.misfit.measure(piece, target, field.y.data(), field.z.data());
+    const Eigen::ArrayXf none = Eigen::ArrayXf::Zero(field.x.size());
+    MisfitMap plain;
+    plain.measure(piece, target, none.data(), none.data());
+    fit.is_plain = plain.mean() <= fit.misfit.mean();
+    if (fit.is_plain) fit.misfit = plain;
+    return fit;
 }
 
 DensityMap Voter::density(std::size_t j, const TargetArea& target) const {

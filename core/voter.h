@@ -27,6 +27,12 @@ struct Arrows {
     void rotate(const Eigen::Matrix3f& by);
 };
 
+/// How an LPF suits its own points.
+struct Fit {
+    MisfitMap misfit;
+    bool is_plain = false;  ///< its piece alone suits them no worse than its field does
+};
+
 /// What an LPF's own points say about how far it is to be believed, place by place.
 struct Trust {
     const MisfitMap& misfit;    ///< measured where they lay at first
@@ -51,9 +57,15 @@ public:
     /// nothing snaps to them.
     [[nodiscard]] static Arrows field_at(const TargetArea& target, const FieldImage& image);
 
-    /// Whether the piece of LPF j suits its own points. @param field at each of them
-    [[nodiscard]] MisfitMap misfit(std::size_t j, const TargetArea& target,
-                                   const Arrows& field) const;
+    /// Leaves of a field what leads to the piece: across a curve, off a surface.
+    static void stop_sliding(const Piece& piece, Arrows& field);
+
+    /// Leaves of a field what does not: sliding along the piece.
+    static void leave_only_sliding(const Piece& piece, Arrows& field);
+
+    /// How LPF j suits its own points. A code that has much else to say, as at the end of a curve,
+    /// may say wrong things about them. @param field at each of them
+    [[nodiscard]] Fit fit(std::size_t j, const TargetArea& target, const Arrows& field) const;
 
     /// Where the members of the piece of LPF j lie.
     [[nodiscard]] DensityMap density(std::size_t j, const TargetArea& target) const;

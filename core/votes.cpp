@@ -16,13 +16,13 @@ class Round {
 public:
     /// @param before  what the round before has decided; null in the first
     /// @param width   of the likely moves [input length]; 0 = any move is likely
-    /// @param misfits one for each LPF; the first round measures them
+    /// @param fits    one for each LPF; the first round measures them
     Round(const FieldSet& fields, const AnalysisResult& analysis, bool sharp, const Moves* before,
-          double width, std::vector<MisfitMap>& misfits)
+          double width, std::vector<Fit>& fits)
         : fields_(fields),
           voter_(fields, analysis, sharp, width),
           before_(before),
-          misfits_(misfits) {}
+          fits_(fits) {}
 
     void run(Ballot& ballot, const Execution& execution) const {
         fields_.for_each_ball("vote", execution,
@@ -38,14 +38,11 @@ private:
         TargetArea& target = worker.probe.target;
         if (before_) move_as_decided(j, target);
         Arrows field = Voter::field_at(target, voter_.image(j, worker));
-        if (!before_) {
-            misfits_[j] = voter_.misfit(j, target, field);
-        } else if (fields_.pieces[j].dimension == kSurface) {
-            // Once is enough for what pulls points from beyond a border.
-            field.x.setZero();
-            field.y.setZero();
-        }
-        voter_.cast(j, target, field, {misfits_[j], voter_.density(j, target)}, ballot);
+        if (!before_) fits_[j] = voter_.fit(j, target, field);
+        if (fits_[j].is_plain) Voter::leave_only_sliding(fields_.pieces[j], field);
+        // Once is enough for what pulls points from beyond a border or an end.
+        if (before_) Voter::stop_sliding(fields_.pieces[j], field);
+        voter_.cast(j, target, field, {fits_[j].misfit, voter_.density(j, target)}, ballot);
     }
 
     /// Moves the points of a flattened target area to where the round before has put them.
@@ -70,17 +67,17 @@ private:
     const FieldSet& fields_;
     Voter voter_;
     const Moves* before_;
-    std::vector<MisfitMap>& misfits_;
+    std::vector<Fit>& fits_;
 };
 
 }  // namespace
 
 Moves vote(const FieldSet& fields, const AnalysisResult& analysis, const VoteParams& params,
            const Execution& execution) {
-    std::vector<MisfitMap> misfits(fields.size());
+    std::vector<Fit> fits(fields.size());
     const auto decide = [&](const Moves* before, double width, const Execution& part) {
         Ballot ballot(fields.grid().size(), execution);
-        Round(fields, analysis, params.sharp, before, width, misfits).run(ballot, part);
+        Round(fields, analysis, params.sharp, before, width, fits).run(ballot, part);
         Moves moves(fields.grid().size());
         parallel_for(execution, moves.size(), kPointsPerChunk,
                      [&](std::size_t begin, std::size_t end, std::size_t) {

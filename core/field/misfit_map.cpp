@@ -45,12 +45,17 @@ void MisfitMap::measure(const Piece& piece, const TargetArea& flattened, const f
     const DiskRaster::Values sum_z = total(off_z);
     const float across = piece.steepness * piece.steepness;
     const float variance = piece.noise * piece.noise * (is_curve ? 2.0F : across);
+    float sum = 0.0F;
+    float members = kFewestPoints;
     for (std::size_t k = 0; k < cells_.size(); ++k) {
         const float count = std::max(points[k], kFewestPoints);
         const float square = (sum_y[k] * sum_y[k] + sum_z[k] * sum_z[k]) / (count * count);
         const float chance = kVariancesOfChance * variance / (kCellsOfPoint * count);
         cells_[k] = std::max(0.0F, square - chance) / across;
+        sum += points[k] * cells_[k];
+        members += points[k];
     }
+    mean_ = sum / members;
 }
 
 }  // namespace lpf

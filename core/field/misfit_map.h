@@ -15,6 +15,9 @@ public:
     void measure(const Piece& piece, const TargetArea& flattened, const float* field_y,
                  const float* field_z);
 
+    /// Mean over the members [squared radius].
+    [[nodiscard]] float mean() const { return mean_; }
+
     /// Squared misfit at n places [squared radius].
     void read(const float* x, const float* y, std::size_t n, float* out) const {
         raster_.read(cells_, x, y, n, out);
@@ -23,6 +26,7 @@ public:
 private:
     DiskRaster raster_;
     DiskRaster::Values cells_{};
+    float mean_ = 0.0F;
 };
 
 }  // namespace lpf

@@ -40,6 +40,9 @@ constexpr double kShareOfStep = 0.9;  // of the way to the balls that the spread
 constexpr double kWider = 4.0 / 3;
 constexpr double kBentShare = 1 / (kWider * kWider * kWider - 1);
 
+/// More than this share of what was found is no bend, but another part of the shape.
+constexpr double kMostBent = 0.3;
+
 /// A ball larger than this share of the diagonal shows the whole shape, not what it is made of.
 constexpr double kLargestBall = 0.25;
 
@@ -181,8 +184,9 @@ double noise_of(const Sampled& cloud, const PointGrid& grid, double radius,
         const double wanted = kSigmasInBall * noise / radius;
         if (!readings.empty() && wanted <= 1) {
             const std::vector<Reading> wider = read(kWider * radius);
-            const double bends = kBentShare * std::max(0.0, low_quantile(wider) - noise);
-            return std::min(std::max(0.0, noise - bends), noise_of_hidden_sheets(wider));
+            const double more = std::max(0.0, low_quantile(wider) - noise);
+            const double bends = std::min(kBentShare * more, kMostBent * noise);
+            return std::min(noise - bends, noise_of_hidden_sheets(wider));
         }
         radius *= std::clamp(kShareOfStep * wanted, kGrowth, kMostGrowth);
     }
