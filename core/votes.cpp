@@ -19,10 +19,7 @@ public:
     /// @param fits    one for each LPF; the first round measures them
     Round(const FieldSet& fields, const AnalysisResult& analysis, bool sharp, const Moves* before,
           double width, std::vector<Fit>& fits)
-        : fields_(fields),
-          voter_(fields, analysis, sharp, width),
-          before_(before),
-          fits_(fits) {}
+        : fields_(fields), voter_(fields, analysis, sharp, width), before_(before), fits_(fits) {}
 
     void run(Ballot& ballot, const Execution& execution) const {
         fields_.for_each_ball("vote", execution,

@@ -55,16 +55,8 @@ void PrintTo(const Case& c, std::ostream* out) { *out << c.shape; }
 
 class TiledDenoiseOf : public testing::TestWithParam<Case> {};
 
-TEST_P(TiledDenoiseOf, IsAsGoodAsTheWholeAndHasNoSeams) {
-    const Scan scan(GetParam().shape, GetParam().points, GetParam().noise);
-    const DenoiseResult whole = denoise(scan.cloud, scan.params, {.threads = 2});
-    const TiledDenoising tiled = scan.tiled();
-    const Points points = with(scan.shape.points, tiled.moves);
-    // Seeds are others in tiles; other seeds alone change the error by some 5 %.
-    EXPECT_LT(test::error_to_shape(points, scan.shape).rmse,
-              1.1 * test::error_to_shape(whole.points, scan.shape).rmse);
-
-    // Near the borders of tiles, where a seam would be.
+/// Which points of a scan are near the borders of its tiles, where a seam would be.
+std::vector<std::uint8_t> near_borders(const Scan& scan) {
     const PointsInMemory source(scan.shape.points);
     const Partition partition(make_sketch(source, {}), static_cast<double>(kSmallTiles.points));
     EXPECT_GE(partition.boxes().size(), 7U);
@@ -75,9 +67,30 @@ TEST_P(TiledDenoiseOf, IsAsGoodAsTheWholeAndHasNoSeams) {
                                 0.3 * scan.params.analysis.radius, [&](std::uint32_t) { ++tiles; });
         near[i] = tiles > 1;
     }
-    const test::ErrorStats here = test::error_to_shape(points, scan.shape, near);
-    EXPECT_GT(here.count, 500U);
-    EXPECT_LT(here.rmse, 1.1 * test::error_to_shape(whole.points, scan.shape, near).rmse);
+    return near;
+}
+
+TEST_P(TiledDenoiseOf, IsAsGoodAsTheWholeAndHasNoSeams) {
+    Scan scan(GetParam().shape, GetParam().points, GetParam().noise);
+    const std::vector<std::uint8_t> near = near_borders(scan);
+    double of_whole = 0;
+    double of_tiles = 0;
+    double near_whole = 0;
+    double near_tiles = 0;
+    // Seeds are others in tiles: on a few thousand points they change the error by a tenth.
+    for (const std::uint64_t draw : {1, 2, 3, 4}) {
+        scan.params.analysis.random_seed = draw;
+        const Points whole = denoise(scan.cloud, scan.params, {.threads = 2}).points;
+        const Points tiled = with(scan.shape.points, scan.tiled().moves);
+        of_whole += test::error_to_shape(whole, scan.shape).rmse;
+        of_tiles += test::error_to_shape(tiled, scan.shape).rmse;
+        near_whole += test::error_to_shape(whole, scan.shape, near).rmse;
+        const test::ErrorStats here = test::error_to_shape(tiled, scan.shape, near);
+        near_tiles += here.rmse;
+        EXPECT_GT(here.count, 500U);
+    }
+    EXPECT_LT(of_tiles, 1.05 * of_whole);
+    EXPECT_LT(near_tiles, 1.06 * near_whole);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, TiledDenoiseOf,
