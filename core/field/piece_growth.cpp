@@ -12,9 +12,10 @@
 namespace lpf {
 namespace {
 
-/// Further off than this many sigma, a point is not of the piece. Where curves cross, a narrower
-/// piece keeps them apart.
-constexpr float kSigmasOff = 2.6F;
+/// Further off than this many sigma, a point is not of the piece. Noise leaves curves in two
+/// directions and goes further off them; where they cross, a narrower piece keeps them apart.
+constexpr float kSigmasOffSurface = 2.6F;
+constexpr float kSigmasOffCurve = 2.8F;
 constexpr float kSigmasOffCrossing = 2.2F;
 
 /// Without noise, this share of the radius is as near as a parabola comes to a shape.
@@ -53,9 +54,9 @@ Piece PieceGrower::grow(const TargetArea& target, float noise, float extent) {
     }
     if (!piece.exists()) return piece;
     follow_crossing_curve(sample_, kSigmasOffCrossing, piece);
-    widen_to_tube(sample_, kSigmasOff, piece);
-    fold_at_crease(sample_, kSigmasOff, piece);
-    split_sheets(sample_, kSigmasOff, piece);
+    widen_to_tube(sample_, kSigmasOffSurface, piece);
+    fold_at_crease(sample_, kSigmasOffSurface, piece);
+    split_sheets(sample_, kSigmasOffSurface, piece);
     return piece;
 }
 
@@ -116,7 +117,7 @@ bool PieceGrower::straighten(std::size_t ball, Piece& piece) {
     if (!piece.exists()) piece.dimension = local_dimension(principal, members_.size);
     piece.origin = principal.mean;
     piece.axes = principal.axes;
-    piece.reach = piece.noise * kSigmasOff;
+    piece.reach = piece.noise * (piece.is_curve() ? kSigmasOffCurve : kSigmasOffSurface);
     std::fill(std::begin(piece.coefficients), std::end(piece.coefficients), 0.0F);
     sample_.look_along(piece, sample_.points_in(ball));
     return true;
