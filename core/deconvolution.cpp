@@ -33,7 +33,7 @@ constexpr std::size_t kPointsPerFollowers = 1024;
 
 /// More points than these within the reach of noise add nothing.
 constexpr double kMostOfShape = 500.0;
-constexpr double kMostOfScan = 3000.0;
+constexpr double kMostOfScan = 5000.0;
 
 /// A place is thin if so close to it [sigma] there is less than this share of what a surface with
 /// the same points around would hold, where that would hold a few.

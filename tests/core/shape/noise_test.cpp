@@ -125,6 +125,13 @@ TEST(Measure, AnExactPlaneHasNoNoise) {
     EXPECT_LT(measure(test::make_plane({.points = 3000}).points, {}).noise, 1e-6);
 }
 
+TEST(Measure, RoundnessIsNoNoise) {
+    for (const char* name : {"sphere", "open_sheet", "helix"}) {
+        const Measurements measured = measure(test::make_shape(name, {.points = 8000}).points, {});
+        EXPECT_LT(measured.noise, 0.02 * measured.mean_spacing) << name;
+    }
+}
+
 TEST(Measure, ScalesWithTheShape) {
     const Points points = test::make_sphere({.points = 2000, .noise = 0.02}).points;
     const Measurements once = measure(points, {});
