@@ -109,11 +109,21 @@ Eigen::Vector3d mean_of(const NearPoints& ball) {
     return sum / static_cast<double>(ball.size);
 }
 
-/// The spread about a place of the shape; nothing where a point is alone.
+/// Whether most of the points of a ball are where its centre is.
+bool is_heap(const NearPoints& ball) {
+    std::size_t equal = 0;
+    for (std::size_t i = 0; i < ball.size; ++i) {
+        equal += ball.x[i] == 0 && ball.y[i] == 0 && ball.z[i] == 0;
+    }
+    return 2 * equal > ball.size;
+}
+
+/// The spread about a place of the shape; nothing where a point is alone, or one of a heap of equal
+/// ones.
 Reading noise_around(const PointGrid& grid, const Eigen::Vector3d& point, double radius,
                      NearPoints& ball, std::vector<double>& heights) {
     grid.gather(point, radius, 1.0F, ball);
-    if (ball.size < kFewestForPlane) return {};
+    if (ball.size < kFewestForPlane || is_heap(ball)) return {};
     // The point is off the shape; the mean of those around it is nearer.
     grid.gather(point + radius * mean_of(ball), radius, 1.0F, ball);
     if (ball.size < kFewestForPlane) return {};

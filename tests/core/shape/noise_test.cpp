@@ -121,6 +121,13 @@ TEST(Measure, AHeapOfEqualPointsDoesNotCount) {
     EXPECT_NEAR(measure(points, {}).mean_spacing, alone, 0.01 * alone);
 }
 
+TEST(Measure, AHeapOfEqualPointsIsNotExact) {
+    // As returns of a laser that hit nothing, all at the origin.
+    Points points(3, 12000);
+    points << test::make_plane({.points = 10000, .noise = 0.02}).points, Points::Zero(3, 2000);
+    EXPECT_NEAR(measure(points, {}).noise, 0.02, 0.1 * 0.02);
+}
+
 TEST(Measure, AnExactPlaneHasNoNoise) {
     EXPECT_LT(measure(test::make_plane({.points = 3000}).points, {}).noise, 1e-6);
 }
