@@ -25,7 +25,7 @@ constexpr double kDensityShare = 0.6;
 constexpr double kLeastDensityShare = 0.4;
 
 /// Denoising goes on where more of the points than this are not on flat parts.
-constexpr double kLeastBent = 0.25;
+constexpr double kLeastBent = 0.12;
 
 constexpr int kPatternPoints = 193;
 constexpr int kFinePatternPoints = 793;

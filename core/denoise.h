@@ -16,6 +16,7 @@ struct DenoiseParams {
     double gamma = 0.0;       ///< Eq. 12: q <- (q + gamma q~)/(1 + gamma); 0 = the full step
     bool sharp = false;       ///< vote for sharp edges: uniform weights, error power 3
     double stop_ratio = 0.1;  ///< stop when the RMS move falls under this share of the first
+    bool slides = true;       ///< points beyond a border or an end are pulled to it
     double least_bent = 0.0;  ///< stop when less than this share of the points was deconvolved
 };
 

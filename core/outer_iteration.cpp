@@ -21,8 +21,10 @@ AnalysisResult find_moves(const Shape& current, const DenoiseParams& params, con
     FieldSet fields(current, how, part_of(execution, 0.0, 0.05), region);
     fields.optimise_poses(how.pose_iterations, part_of(execution, 0.05, 0.25));
     AnalysisResult analysis = analyze(fields, how, part_of(execution, 0.25, 0.8));
-    take(fields.grid().order(), vote(fields, analysis, {.sharp = params.sharp, .noise = how.noise},
-                                     part_of(execution, 0.8, 1.0)));
+    take(
+        fields.grid().order(),
+        vote(fields, analysis, {.sharp = params.sharp, .noise = how.noise, .slides = params.slides},
+             part_of(execution, 0.8, 1.0)));
     return analysis;
 }
 
@@ -57,6 +59,8 @@ void prepare_next(Dictionary dictionary, DenoiseParams& params) {
     params.analysis.least_radius =
         std::max(params.analysis.least_radius, least_radius(params.analysis.noise));
     params.analysis.noise *= kNoiseBetween;
+    // What was beyond borders and ends is there after a full step; more would shorten them.
+    if (params.gamma == 0) params.slides = false;
 }
 
 }  // namespace lpf

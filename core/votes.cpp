@@ -14,12 +14,17 @@ constexpr double kSecondWidth = 0.52;
 /// One round of votes.
 class Round {
 public:
+    /// @param params  of the votes
     /// @param before  what the round before has decided; null in the first
     /// @param width   of the likely moves [input length]; 0 = any move is likely
     /// @param fits    one for each LPF; the first round measures them
-    Round(const FieldSet& fields, const AnalysisResult& analysis, bool sharp, const Moves* before,
-          double width, std::vector<Fit>& fits)
-        : fields_(fields), voter_(fields, analysis, sharp, width), before_(before), fits_(fits) {}
+    Round(const FieldSet& fields, const AnalysisResult& analysis, const VoteParams& params,
+          const Moves* before, double width, std::vector<Fit>& fits)
+        : fields_(fields),
+          voter_(fields, analysis, params.sharp, width),
+          before_(before),
+          slides_(params.slides && !before),
+          fits_(fits) {}
 
     void run(Ballot& ballot, const Execution& execution) const {
         fields_.for_each_ball("vote", execution,
@@ -38,7 +43,7 @@ private:
         if (!before_) fits_[j] = voter_.fit(j, target, field);
         if (fits_[j].is_plain) Voter::leave_only_sliding(fields_.pieces[j], field);
         // Once is enough for what pulls points from beyond a border or an end.
-        if (before_) Voter::stop_sliding(fields_.pieces[j], field);
+        if (!slides_) Voter::stop_sliding(fields_.pieces[j], field);
         voter_.cast(j, target, field, {fits_[j].misfit, voter_.density(j, target)}, ballot);
     }
 
@@ -64,6 +69,7 @@ private:
     const FieldSet& fields_;
     Voter voter_;
     const Moves* before_;
+    bool slides_;
     std::vector<Fit>& fits_;
 };
 
@@ -74,7 +80,7 @@ Moves vote(const FieldSet& fields, const AnalysisResult& analysis, const VotePar
     std::vector<Fit> fits(fields.size());
     const auto decide = [&](const Moves* before, double width, const Execution& part) {
         Ballot ballot(fields.grid().size(), execution);
-        Round(fields, analysis, params.sharp, before, width, fits).run(ballot, part);
+        Round(fields, analysis, params, before, width, fits).run(ballot, part);
         Moves moves(fields.grid().size());
         parallel_for(execution, moves.size(), kPointsPerChunk,
                      [&](std::size_t begin, std::size_t end, std::size_t) {

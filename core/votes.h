@@ -15,6 +15,7 @@ using Moves = std::vector<Eigen::Vector3f>;
 struct VoteParams {
     bool sharp = false;  ///< weight by the cube of the representation error alone
     double noise = 0.0;  ///< standard deviation of the points off the shape [input length]
+    bool slides = true;  ///< points beyond a border or an end are pulled to it
 };
 
 /// Every LPF proposes a place for each point under its disk (paper Sec. 4.2). Departs from the

@@ -15,7 +15,7 @@ namespace {
 /// Further off than this many sigma, a point is not of the piece. Noise leaves curves in two
 /// directions and goes further off them; where they cross, a narrower piece keeps them apart.
 constexpr float kSigmasOffSurface = 2.6F;
-constexpr float kSigmasOffCurve = 2.7F;
+constexpr float kSigmasOffCurve = 2.8F;
 constexpr float kSigmasOffCrossing = 2.2F;
 
 /// Without noise, this share of the radius is as near as a parabola comes to a shape.

@@ -45,7 +45,7 @@ TEST(PinnedRules, OfDenoisingACloud) {
     EXPECT_TRUE(resolved.analysis.debias);
     EXPECT_EQ(value_of(resolved, "analysisIterations"), 1);
     EXPECT_EQ(value_of(resolved, "denoiseIterations"), 2);
-    EXPECT_EQ(resolved.denoise.least_bent, 0.25);
+    EXPECT_EQ(resolved.denoise.least_bent, 0.12);
     EXPECT_EQ(value_of(resolved, "atoms"), 16);
     EXPECT_EQ(resolved.analysis.probing, ProbingKind::NoiseAware);
 }
@@ -66,7 +66,7 @@ TEST(PinnedRules, OfResamplingAndOfAnalysis) {
     EXPECT_EQ(cloud.resample.detail, 0.0);
     ASSERT_TRUE(cloud.resample.denoise);
     EXPECT_EQ(cloud.resample.denoise->iterations, 2);
-    EXPECT_EQ(cloud.resample.denoise->least_bent, 0.25);
+    EXPECT_EQ(cloud.resample.denoise->least_bent, 0.12);
     EXPECT_EQ(cloud.resample.denoise->analysis.noise, 0.02);
     EXPECT_NEAR(cloud.resample.analysis.noise, 0.25 * 0.02, 1e-12);
     EXPECT_EQ(cloud.resample.denoise->analysis.iterations, 1);

@@ -107,7 +107,8 @@ TEST(Voter, PullsTheEndsOfCurvesOnce) {
     constexpr double kNoise = 0.02;
     double shorter = 0;
     for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
-        const test::TestShape scan = test::make_line({.points = 4000, .noise = kNoise, .seed = seed});
+        const test::TestShape scan =
+            test::make_line({.points = 4000, .noise = kNoise, .seed = seed});
         const Analysed line(scan);
         const Points points = denoise(line.shape, line.params, kExecution).points;
         shorter += 2 - (points.row(0).maxCoeff() - points.row(0).minCoeff());
