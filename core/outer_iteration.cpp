@@ -59,8 +59,8 @@ void prepare_next(Dictionary dictionary, DenoiseParams& params) {
     params.analysis.least_radius =
         std::max(params.analysis.least_radius, least_radius(params.analysis.noise));
     params.analysis.noise *= kNoiseBetween;
-    // What was beyond borders and ends is there after a full step; more would shorten them.
-    if (params.gamma == 0) params.slides = false;
+    // What noise had carried beyond borders and ends is there now; more would shorten them.
+    if (is_deconvolved(params)) params.slides = false;
 }
 
 }  // namespace lpf

@@ -177,7 +177,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, PinnedQuality,
                          testing::Values(Quality{"cube", 12000, 0.02, 0.003724, 2.415, 742},
                                          Quality{"curve_on_surface", 12000, 0.02, 0.001992, 1.497,
                                                  252},
-                                         Quality{"thin_plate", 12000, 0.008, 0.000967, 0.547, 409},
+                                         Quality{"thin_plate", 12000, 0.008, 0.000967, 0.508, 409},
                                          Quality{"open_sheet", 8000, 0.05, 0.006032, 1.294, 185}),
                          [](const auto& each) { return std::string(each.param.shape); });
 
