@@ -154,6 +154,7 @@ std::vector<Reading> read_noise(const Sampled& cloud, const PointGrid& grid, dou
 
 double low_quantile(const std::vector<Reading>& readings) {
     std::vector<double> deviations;
+    deviations.reserve(readings.size());
     for (const Reading& reading : readings) deviations.push_back(reading.noise);
     return quantile(deviations, kQuantile);
 }

@@ -62,14 +62,12 @@ double kurtosis_of(const std::vector<double>& heights) {
 class OnPlane {
 public:
     /// A large ball is thinned: a few thousand points say as much.
-    explicit OnPlane(const NearPoints& ball)
-        : ball_(ball),
-          stride_(1 + ball.size / kMostInBall),
-          count_(static_cast<double>(1 + (ball.size - 1) / stride_)) {
+    explicit OnPlane(const NearPoints& ball) : ball_(ball), stride_(1 + ball.size / kMostInBall) {
         Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
         for_each([&](const Eigen::Vector3d& p) {
             mean_ += p;
             squares += p * p.transpose();
+            ++count_;
         });
         mean_ /= count_;
         Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
@@ -124,7 +122,7 @@ private:
 
     const NearPoints& ball_;
     std::size_t stride_;
-    double count_;
+    double count_ = 0.0;
     Eigen::Vector3d mean_ = Eigen::Vector3d::Zero();
     Eigen::Matrix3d axes_;     // row 0: the normal
     Eigen::Vector3d extents_;  // variances along them
