@@ -93,10 +93,10 @@ Fit Voter::fit(std::size_t j, const TargetArea& target, const Arrows& field) con
     const Piece& piece = fields_.pieces[j];
     Fit fit;
     if (!piece.exists()) return fit;
-    fit.misfit.measure(piece, target, field.y.data(), field.z.data());
-    const Eigen::ArrayXf none = Eigen::ArrayXf::Zero(field.x.size());
+    const MemberOffsets members(piece, target);
+    fit.misfit.measure(members, field.y.data(), field.z.data());
     MisfitMap plain;
-    plain.measure(piece, target, none.data(), none.data());
+    plain.measure(members);
     fit.is_plain = plain.mean() <= fit.misfit.mean();
     if (fit.is_plain) fit.misfit = plain;
     return fit;

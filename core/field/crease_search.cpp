@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/blur.h"
-#include "core/field/normal_equations.h"
+#include "core/base/normal_equations.h"
 #include "core/field/piece_fit.h"
 
 namespace lpf {

@@ -17,45 +17,61 @@ constexpr float kFewestPoints = 1e-6F;
 
 }  // namespace
 
-void MisfitMap::measure(const Piece& piece, const TargetArea& flattened, const float* field_y,
-                        const float* field_z) {
-    const bool is_curve = piece.is_curve();
-    raster_ = DiskRaster(is_curve);
-    const std::size_t n = flattened.size;
+MemberOffsets::MemberOffsets(const Piece& piece, const TargetArea& flattened)
+    : piece_(piece),
+      target_(flattened),
+      raster_(piece.is_curve()),
+      is_member_(flattened.size),
+      y_(piece.is_curve() ? flattened.size : 0),
+      z_(flattened.size) {
     const float limit = piece.reach * piece.reach;
-    Eigen::ArrayXf is_member(n);
-    Eigen::ArrayXf off_y(is_curve ? n : 0);
-    Eigen::ArrayXf off_z(n);
-    for (std::size_t i = 0; i < n; ++i) {
-        float y = is_curve ? flattened.y[i] : 0.0F;
+    for (std::size_t i = 0; i < flattened.size; ++i) {
+        float y = piece.is_curve() ? flattened.y[i] : 0.0F;
         float z = flattened.z[i];
         piece.to_nearer_sheet(flattened.x[i], flattened.y[i], y, z);
-        is_member[i] = y * y + z * z <= limit ? 1.0F : 0.0F;
-        off_z[i] = is_member[i] * (z - field_z[i]);
-        if (is_curve) off_y[i] = is_member[i] * (y - field_y[i]);
+        is_member_[i] = y * y + z * z <= limit ? 1.0F : 0.0F;
+        z_[i] = is_member_[i] * z;
+        if (piece.is_curve()) y_[i] = is_member_[i] * y;
     }
-    const auto total = [&](const Eigen::ArrayXf& values) {
-        DiskRaster::Values sums{};
-        raster_.add(flattened.x.data(), flattened.y.data(), values.data(),
-                    static_cast<std::size_t>(values.size()), sums);
-        return sums;
-    };
-    const DiskRaster::Values points = total(is_member);
-    const DiskRaster::Values sum_y = total(off_y);
-    const DiskRaster::Values sum_z = total(off_z);
+    members_ = sums(is_member_);
+}
+
+/// @param values of all points, or none
+DiskRaster::Values MemberOffsets::sums(const Eigen::ArrayXf& values) const {
+    DiskRaster::Values sums{};
+    raster_.add(target_.x.data(), target_.y.data(), values.data(),
+                static_cast<std::size_t>(values.size()), sums);
+    return sums;
+}
+
+void MisfitMap::measure(const MemberOffsets& members, const float* field_y, const float* field_z) {
+    using Field = Eigen::Map<const Eigen::ArrayXf>;
+    const Eigen::ArrayXf& ones = members.is_member_;
+    Eigen::ArrayXf off_y = members.y_;
+    if (off_y.size() > 0) off_y -= ones * Field(field_y, ones.size());
+    measure_means(members, off_y, members.z_ - ones * Field(field_z, ones.size()));
+}
+
+void MisfitMap::measure_means(const MemberOffsets& members, const Eigen::ArrayXf& off_y,
+                              const Eigen::ArrayXf& off_z) {
+    const Piece& piece = members.piece_;
+    raster_ = members.raster_;
+    const DiskRaster::Values& points = members.members_;
+    const DiskRaster::Values sum_y = members.sums(off_y);
+    const DiskRaster::Values sum_z = members.sums(off_z);
     const float across = piece.steepness * piece.steepness;
-    const float variance = piece.noise * piece.noise * (is_curve ? 2.0F : across);
+    const float variance = piece.noise * piece.noise * (piece.is_curve() ? 2.0F : across);
     float sum = 0.0F;
-    float members = kFewestPoints;
+    float all = kFewestPoints;
     for (std::size_t k = 0; k < cells_.size(); ++k) {
         const float count = std::max(points[k], kFewestPoints);
         const float square = (sum_y[k] * sum_y[k] + sum_z[k] * sum_z[k]) / (count * count);
         const float chance = kVariancesOfChance * variance / (kCellsOfPoint * count);
         cells_[k] = std::max(0.0F, square - chance) / across;
         sum += points[k] * cells_[k];
-        members += points[k];
+        all += points[k];
     }
-    mean_ = sum / members;
+    mean_ = sum / all;
 }
 
 }  // namespace lpf

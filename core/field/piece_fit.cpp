@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/base/kernels.h"
-#include "core/field/normal_equations.h"
+#include "core/base/normal_equations.h"
 
 namespace lpf {
 namespace {

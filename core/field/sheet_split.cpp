@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/field/normal_equations.h"
+#include "core/base/normal_equations.h"
 #include "core/field/piece_fit.h"
 
 namespace lpf {

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/normal_equations.h"
+
 namespace lpf {
 namespace {
 
@@ -91,25 +93,22 @@ public:
     /// Takes the quadric off that suits the heights best: also where a shape is round, what is left
     /// is noise.
     void take_off_quadric(std::vector<double>& heights) const {
-        using Coefficients = Eigen::Matrix<double, 6, 1>;
-        const auto monomials = [&](const Eigen::Vector3d& p) {
-            const Eigen::Vector3d q = axes_ * (p - mean_);
-            const double u = q[1];
-            const double v = q[2];
-            return Coefficients(1, u, v, u * u, u * v, v * v);
+        const auto each = [&](const auto& body) {
+            auto height = heights.begin();
+            for_each([&](const Eigen::Vector3d& p) {
+                const Eigen::Vector3d q = axes_ * (p - mean_);
+                const double u = q[1];
+                const double v = q[2];
+                body({1, u, v, u * u, u * v, v * v}, *height++);
+            });
         };
-        Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Zero();
-        Coefficients with_heights = Coefficients::Zero();
-        auto height = heights.begin();
-        for_each([&](const Eigen::Vector3d& p) {
-            const Coefficients row = monomials(p);
-            squares.selfadjointView<Eigen::Lower>().rankUpdate(row);
-            with_heights += *height++ * row;
+        using Row = double[6];
+        NormalEquations<6> equations;
+        each([&](const Row& row, double height) { equations.add(row, {height}); });
+        const Eigen::Matrix<double, 6, 1> quadric = equations.solve();
+        each([&](const Row& row, double& height) {
+            height -= quadric.dot(Eigen::Map<const Eigen::Matrix<double, 6, 1>>(row));
         });
-        const Coefficients quadric =
-            squares.selfadjointView<Eigen::Lower>().ldlt().solve(with_heights);
-        height = heights.begin();
-        for_each([&](const Eigen::Vector3d& p) { *height++ -= quadric.dot(monomials(p)); });
     }
 
 private:

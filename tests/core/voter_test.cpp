@@ -6,7 +6,6 @@
 
 #include "core/auto_parameters.h"
 #include "core/denoise.h"
-#include "tests/support/metrics.h"
 #include "tests/support/shapes.h"
 
 namespace lpf {

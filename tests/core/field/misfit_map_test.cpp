@@ -48,7 +48,7 @@ MisfitMap map_of(const Piece& piece, const Height& height, const Height& field) 
     std::vector<float> z(target.size);
     for (std::size_t i = 0; i < target.size; ++i) z[i] = field(target.x[i], target.y[i]);
     MisfitMap map;
-    map.measure(piece, target, y.data(), z.data());
+    map.measure({piece, target}, y.data(), z.data());
     return map;
 }
 
@@ -113,7 +113,7 @@ TEST(MisfitMap, OfACurveLooksAlongItOnly) {
     for (std::size_t i = 0; i < target.size; ++i) target.y[i] = 0;
     const std::vector<float> zeros(target.size, 0.0F);
     MisfitMap map;
-    map.measure(curve, target, zeros.data(), zeros.data());
+    map.measure({curve, target}, zeros.data(), zeros.data());
     EXPECT_NEAR(misfit_at(map, 0.5F, 0.9F), 4 * kNoise * kNoise, 0.6F * kNoise * kNoise);
     EXPECT_LT(misfit_at(map, -0.5F, 0.0F), 0.05F * kNoise * kNoise);
 }
