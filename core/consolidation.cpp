@@ -12,20 +12,15 @@
 namespace lpf {
 namespace {
 
-constexpr double kCountTolerance = 0.02;
+constexpr double kCountTolerance = 0.01;
 constexpr double kTrialTolerance = 0.005;  // of the number that a sample foretells
 constexpr int kMostSearchRounds = 8;
-constexpr int kMostPasses = 4;
 
 /// Candidates of a block about, at most: with all that is worked on, 75 bytes each.
 constexpr double kCandidatesOfBlock = 1.5e6;
 
 /// So few candidates of a search are held as a whole: making them again and again takes longer.
-constexpr double kCandidatesOfSearch = 6e6;
-
-/// After so many tries of a search the places stay, so that the number of points changes with the
-/// spacing alone: a finer lattice of places makes a denser packing.
-constexpr int kTriesOfPlaces = 2;
+constexpr double kCandidatesOfSearch = 2.5e6;
 
 /// Steps of unknown number, each a share of what is left of a progress bar.
 class Steps {
@@ -86,59 +81,46 @@ Consensus Consolidation::pass(double spacing, const Execution& execution) const 
     return consensus;
 }
 
+/// The places of LPFs stay while spacings are tried, so that the number of points changes with the
+/// spacing alone.
 Consolidation::Found Consolidation::find(const Execution& execution) {
     const bool search = params_.target_points > 0;
     const double spacing = search ? guess_spacing() : params_.target_spacing;
-    place(spacing);
-    if (!search) return {pass(spacing, execution), spacing};
-    return is_small() ? search_on_all(execution) : search_on_sample(execution);
+    proposer_.emplace(fields_, analysis_, params_, spacing);
+    if (!search) return find_again(spacing, execution);
+    return is_small() ? search_on_all(spacing, execution) : search_on_sample(spacing, execution);
 }
 
-Consolidation::Found Consolidation::search_on_all(const Execution& execution) {
-    SpacingSearch search(guess_spacing(), static_cast<double>(params_.target_points));
+Consolidation::Found Consolidation::find_again(double spacing, const Execution& execution) const {
+    return {pass(spacing, execution), spacing};
+}
+
+Consolidation::Found Consolidation::search_on_all(double guess, const Execution& execution) const {
+    SpacingSearch search(guess, static_cast<double>(params_.target_points));
     Steps steps(execution);
-    Candidates candidates;
-    for (int round = 0;; ++round) {
+    const Candidates candidates = all_candidates(steps.next(0.4));
+    for (int round = 1;; ++round) {
         const double spacing = search.spacing();
-        if (round < kTriesOfPlaces) {
-            place(spacing);
-            candidates = all_candidates(steps.next(0.4));
-        }
         Consensus consensus = empty_consensus(spacing);
-        consensus.settle(candidates, CellLattice::everything(), steps.next(0.4));
+        consensus.settle(candidates, CellLattice::everything(), steps.next(0.5));
         const auto count = static_cast<double>(consensus.size());
-        if (search.accepts(count, kCountTolerance / 2) || round + 1 == kMostSearchRounds) {
+        if (search.accepts(count, kCountTolerance) || round == kMostSearchRounds) {
             return {std::move(consensus), spacing};
         }
     }
 }
 
-/// Spacings are tried on a sample; then all LPFs show how far the sample is off.
-Consolidation::Found Consolidation::search_on_sample(const Execution& execution) {
+Consolidation::Found Consolidation::search_on_sample(double guess,
+                                                     const Execution& execution) const {
     const auto wanted = static_cast<double>(params_.target_points);
     Steps steps(execution);
-    std::optional<CountSample> sample;
-    double wanted_of_sample = wanted;
-    double spacing = guess_spacing();
-    int tries = 0;
-    for (int passes = 1;; ++passes) {
-        SpacingSearch search(spacing, wanted_of_sample);
-        for (int round = 0; round < kMostSearchRounds; ++round) {
-            spacing = search.spacing();
-            if (tries++ < kTriesOfPlaces) {
-                place(spacing);
-                sample.emplace(fields_, *proposer_, spacing, steps.next(0.1));
-            }
-            const double count = sample->count(spacing, steps.next(0.03));
-            if (search.accepts(count, kTrialTolerance)) break;
-        }
-        Consensus consensus = pass(spacing, steps.next(0.9));
-        const auto count = static_cast<double>(consensus.size());
-        if (std::abs(count - wanted) <= kCountTolerance * wanted || passes == kMostPasses) {
-            return {std::move(consensus), spacing};
-        }
-        wanted_of_sample *= wanted / std::max(1.0, count);
+    const CountSample sample(fields_, *proposer_, guess, wanted, steps.next(0.1));
+    SpacingSearch search(guess, wanted);
+    for (int round = 1; round < kMostSearchRounds; ++round) {
+        const double count = sample.count(search.spacing(), steps.next(0.03));
+        if (search.accepts(count, kTrialTolerance)) break;
     }
+    return find_again(search.spacing(), steps.next(1.0));
 }
 
 }  // namespace lpf

@@ -21,19 +21,20 @@ public:
                   const ResampleParams& params)
         : fields_(fields), analysis_(analysis), params_(params) {}
 
-    /// With the spacing that the parameters want, or as many points as they do, within 2 % where
-    /// it can be.
+    /// With the spacing that the parameters want, or about as many points as they do.
     [[nodiscard]] Found find(const Execution& execution);
+
+    /// With another spacing, which does not differ much. @pre find
+    [[nodiscard]] Found find_again(double spacing, const Execution& execution) const;
 
 private:
     [[nodiscard]] double guess_spacing() const;
-    void place(double spacing) { proposer_.emplace(fields_, analysis_, params_, spacing); }
     [[nodiscard]] bool is_small() const;
     [[nodiscard]] Candidates all_candidates(const Execution& execution) const;
     [[nodiscard]] Consensus empty_consensus(double spacing) const;
     [[nodiscard]] Consensus pass(double spacing, const Execution& execution) const;
-    [[nodiscard]] Found search_on_all(const Execution& execution);
-    [[nodiscard]] Found search_on_sample(const Execution& execution);
+    [[nodiscard]] Found search_on_all(double guess, const Execution& execution) const;
+    [[nodiscard]] Found search_on_sample(double guess, const Execution& execution) const;
 
     const FieldSet& fields_;
     const AnalysisResult& analysis_;

@@ -1,6 +1,7 @@
 #include "core/count_sample.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -11,9 +12,10 @@ namespace lpf {
 namespace {
 
 constexpr double kPartSide = 20.0;        // [tau_p]
-constexpr double kPartSideInRadii = 3.0;  // LPFs that reach into a part lie in it or next to it
+constexpr double kPartSideInRadii = 1.6;  // LPFs that reach into a part lie in it or next to it
 constexpr double kAround = 4.0;           // candidates around a part [tau_p]
-constexpr std::size_t kParts = 128;
+constexpr double kParts = 128.0;          // at most,
+constexpr double kPoints = 1e5;           // and with as many points about
 
 struct CellMembers {
     std::vector<std::uint32_t> fields;
@@ -44,14 +46,15 @@ std::vector<std::uint32_t> members_around(const MembersOfCells& members, const C
 
 }  // namespace
 
-CountSample::CountSample(const FieldSet& fields, const Proposer& proposer, double spacing,
+CountSample::CountSample(const FieldSet& fields, const Proposer& proposer, double spacing, double points,
                          const Execution& execution) {
     double largest = 0.0;
     for (const Frame& frame : fields.frames) largest = std::max(largest, frame.radius);
     const CellLattice lattice{fields.frames[fields.size() / 2].centre,
                               std::max(kPartSide * spacing, kPartSideInRadii * largest)};
     const MembersOfCells members = members_of_cells(fields, lattice);
-    const std::size_t stride = 1 + (members.size() - 1) / kParts;
+    const double cells = static_cast<double>(members.size());
+    const auto stride = static_cast<std::size_t>(std::ceil(std::max(cells / kParts, points / kPoints)));
     double whole = 0.0;
     double parts = 0.0;
     std::vector<std::vector<std::uint32_t>> numbers;

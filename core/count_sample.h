@@ -11,7 +11,8 @@ namespace lpf {
 class CountSample {
 public:
     /// @param spacing tau_p that is tried, roughly [input length]
-    CountSample(const FieldSet& fields, const Proposer& proposer, double spacing,
+    /// @param points  that it gives, roughly
+    CountSample(const FieldSet& fields, const Proposer& proposer, double spacing, double points,
                 const Execution& execution);
 
     /// Number of points of the whole shape, foretold by the areas of the LPFs.

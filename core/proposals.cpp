@@ -15,9 +15,9 @@ namespace {
 constexpr std::size_t kFieldsPerChunk = 32;
 
 /// The places of one LPF lie this close at least [tau_p]. With all the LPFs that overlap, the
-/// packing is nearly saturated then. A search for a number of points makes do with fewer.
+/// packing is nearly saturated then.
 constexpr double kCandidateStep = 0.9;
-constexpr double kCandidateStepOfSearch = 1.3;
+constexpr double kCandidateStepOfSearch = 1.0;
 constexpr int kMostSubdivisions = 16;
 constexpr int kMostAround = 64;  // a tube
 
@@ -28,40 +28,56 @@ constexpr std::size_t kFewestOnSurface = 16;
 /// A gap of so many local spacings belongs to the shape still.
 constexpr double kSupportSpacings = 1.2;
 
-/// Places of the plane at which an LPF proposes a point, at most `apart` from each other [input
-/// length], ordered from the centre outwards: the nodes of the pattern or, where they are too far
-/// apart, a finer grid.
-std::vector<Eigen::Vector2f> proposal_places(const Pattern& pattern, double radius, double apart) {
-    const double step = static_cast<double>(pattern.step()) * radius;
+using Places = std::vector<Eigen::Vector2f>;
+
+void order_from_centre(Places& places) {
+    std::ranges::stable_sort(places, {}, [](const Eigen::Vector2f& p) { return p.squaredNorm(); });
+}
+
+/// Places of a lattice in the disk. @param step [radius]
+Places lattice(float step) {
+    const int half = static_cast<int>(1 / step);
+    Places places;
+    for (int j = -half; j <= half; ++j) {
+        for (int i = -half; i <= half; ++i) {
+            const Eigen::Vector2f place(step * static_cast<float>(i), step * static_cast<float>(j));
+            if (place.norm() < 1) places.push_back(place);
+        }
+    }
+    return places;
+}
+
+/// Places at which an LPF proposes a point, at most `apart` from each other [radius], from the
+/// centre outwards: the nodes of the pattern or, where they are too far apart, a finer grid.
+Places places_of_nodes(const Pattern& pattern, double apart) {
+    const double step = static_cast<double>(pattern.step());
     const int cuts =
         std::clamp(static_cast<int>(std::ceil(step / apart - 1e-9)), 1, kMostSubdivisions);
-    std::vector<Eigen::Vector2f> places;
+    Places places;
     if (cuts == 1) {
         for (const int i : pattern.by_distance()) places.push_back(pattern.point(i).head<2>());
         return places;
     }
-    const float fine = pattern.step() / static_cast<float>(cuts);
-    const int half = static_cast<int>(1.0F / fine);
-    for (int j = -half; j <= half; ++j) {
-        for (int i = -half; i <= half; ++i) {
-            const Eigen::Vector2f place(fine * static_cast<float>(i), fine * static_cast<float>(j));
-            if (place.norm() < 1) places.push_back(place);
-        }
-    }
-    std::ranges::stable_sort(places, {}, [](const Eigen::Vector2f& p) { return p.squaredNorm(); });
+    places = lattice(pattern.step() / static_cast<float>(cuts));
+    order_from_centre(places);
     return places;
 }
 
-/// The same places, each shaken by up to half of `apart`: on a grid, the number of points would
-/// jump where the spacing that is searched for passes the step of the grid.
-void shake(std::vector<Eigen::Vector2f>& places, double apart) {
+/// Places of a lattice `apart` [radius], each shaken by up to half of that, from the centre outwards:
+/// as many as the points that are searched for need, and no number that jumps with their spacing,
+/// as that of nodes would.
+Places shaken_places(const Pattern& pattern, double apart) {
+    const double finest = static_cast<double>(pattern.step()) / kMostSubdivisions;
+    const double step = std::max(apart, finest);
+    Places places = lattice(static_cast<float>(step));
     Random random(places.size(), 0x5ba4e);
     for (Eigen::Vector2f& place : places) {
-        const Eigen::Vector2f shaken =
-            place + Eigen::Vector2f(static_cast<float>(random.uniform(-0.5, 0.5) * apart),
-                                    static_cast<float>(random.uniform(-0.5, 0.5) * apart));
+        Eigen::Vector2f shaken = place;
+        for (float& x : shaken) x += static_cast<float>(step * random.uniform(-0.5, 0.5));
         if (shaken.norm() < 1) place = shaken;
     }
+    order_from_centre(places);
+    return places;
 }
 
 /// A field that jumps further between neighbouring nodes leaps from one part of the shape to
@@ -114,14 +130,14 @@ void ways_to_sheets(const Piece& piece, float x, float y, double apart,
 Proposer::Proposer(const FieldSet& fields, const AnalysisResult& analysis,
                    const ResampleParams& params, double spacing)
     : fields_(fields), analysis_(analysis), params_(params), spacing_(spacing) {
-    const bool search = params.target_points > 0;
-    const double apart = spacing * (search ? kCandidateStepOfSearch : kCandidateStep);
     const Pattern& pattern = fields.pattern();
     for (const Frame& frame : fields.frames) {
         const auto [at, is_new] = places_.try_emplace(frame.radius);
         if (!is_new) continue;
-        std::vector<Eigen::Vector2f> places = proposal_places(pattern, frame.radius, apart);
-        if (search) shake(places, apart / frame.radius);
+        const double tau = spacing / frame.radius;
+        const Places places = params.target_points > 0
+                                  ? shaken_places(pattern, kCandidateStepOfSearch * tau)
+                                  : places_of_nodes(pattern, kCandidateStep * tau);
         for (const Eigen::Vector2f& place : places) {
             at->second.push_back({place, pattern.stencil(place.x(), place.y())});
         }

@@ -11,6 +11,7 @@
 #include "core/field_set.h"
 #include "core/final_vote.h"
 #include "core/nearest_sources.h"
+#include "core/spacing_search.h"
 
 namespace lpf {
 namespace {
@@ -25,10 +26,9 @@ constexpr double kPointsToDrop = 1.015;
 constexpr double kLeastSpread = 0.9;
 constexpr double kMostSpread = 1.03;
 
-/// The number of points is met as nearly; else the search starts anew, at most so often.
+/// The number of points is met as nearly, if it is after so many tries.
 constexpr double kCountTolerance = 0.019;
-constexpr int kMostTries = 3;
-constexpr double kShareOfOthers = 0.1;
+constexpr std::size_t kMostTries = 4;
 
 void validate(const ResampleParams& params) {
     validate(params.analysis);
@@ -54,9 +54,7 @@ struct Found {
     double spacing = 0.0;  ///< tau_p [input length]
 };
 
-Found take_consensus(const FieldSet& fields, const AnalysisResult& analysis,
-                     const ResampleParams& params, const Execution& execution) {
-    Consolidation::Found found = Consolidation(fields, analysis, params).find(execution);
+Found points_of(Consolidation::Found found) {
     Candidates points = found.consensus.take();
     return_freed_memory();  // of many small cells
     return {std::move(points), found.spacing};
@@ -68,52 +66,61 @@ double noise_taken(const ResampleParams& params) {
     return noise > params.analysis.noise ? noise : 0.0;
 }
 
-/// Points that all LPFs have voted on, and how far apart they started.
-Found take_vote(const FieldSet& fields, const AnalysisResult& analysis,
-                const ResampleParams& params, double noise, const Execution& execution) {
-    Found found = take_consensus(fields, analysis, params, part_of(execution, 0.0, 0.7));
-    put_to_vote(fields, analysis, noise, found.spacing, found.points, part_of(execution, 0.7, 0.9));
-    return found;
-}
+/// From LPFs to points that are what all of them agree on: their consensus and, where there was
+/// noise, their votes on it.
+class Agreement {
+public:
+    Agreement(const FieldSet& fields, const AnalysisResult& analysis, const ResampleParams& params)
+        : fields_(fields), analysis_(analysis), params_(params), noise_(noise_taken(params)) {}
 
-Found find_with_spacing(const FieldSet& fields, const AnalysisResult& analysis,
-                        ResampleParams params, double noise, const Execution& execution) {
-    const double spacing = params.target_spacing;
-    params.target_spacing *= kSpacingToMove;
-    Found found = take_vote(fields, analysis, params, noise, execution);
-    spread_out({.least = spacing}, found.points, part_of(execution, 0.9, 1.0));
-    return {std::move(found.points), spacing};
-}
-
-Found find_with_number(const FieldSet& fields, const AnalysisResult& analysis,
-                       ResampleParams params, double noise, const Execution& execution) {
-    const std::size_t enough = params.target_points;
-    const auto wanted = static_cast<double>(enough);
-    double aim = kPointsToDrop * wanted;
-    for (int tries = 1;; ++tries) {
-        // Most often the first is the last: each takes most of what is left of a progress bar.
-        const double rest = std::pow(kShareOfOthers, tries - 1);
-        const Execution part = part_of(execution, 1 - rest, 1 - kShareOfOthers * rest);
-        params.target_points = static_cast<std::size_t>(std::llround(aim));
-        Found found = take_vote(fields, analysis, params, noise, part);
-        const Apart apart{kLeastSpread * found.spacing, kMostSpread * found.spacing, enough};
-        found.spacing = spread_out(apart, found.points, part_of(part, 0.9, 1.0));
-        const auto count = static_cast<double>(found.points.size());
-        if (std::abs(count - wanted) <= kCountTolerance * wanted || tries == kMostTries) {
-            return found;
-        }
-        aim *= wanted / std::max(1.0, count);
+    Found find(const Execution& execution) {
+        return params_.target_points > 0 ? find_number(execution) : find_spacing(execution);
     }
-}
 
-/// What all LPFs agree on: their consensus, and where there was noise, their votes on it.
-Found find_points(const FieldSet& fields, const AnalysisResult& analysis,
-                  const ResampleParams& params, const Execution& execution) {
-    const double noise = noise_taken(params);
-    if (noise == 0) return take_consensus(fields, analysis, params, execution);
-    const auto find = params.target_points > 0 ? find_with_number : find_with_spacing;
-    return find(fields, analysis, params, noise, execution);
-}
+private:
+    [[nodiscard]] bool votes() const { return noise_ > 0; }
+
+    Found find_spacing(const Execution& execution) {
+        const double spacing = params_.target_spacing;
+        if (votes()) params_.target_spacing *= kSpacingToMove;
+        Consolidation consolidation(fields_, analysis_, params_);
+        Found found = points_of(consolidation.find(part_of(execution, 0.0, 0.7)));
+        vote({.least = spacing}, found, part_of(execution, 0.7, 1.0));
+        return {std::move(found.points), spacing};
+    }
+
+    /// What is left of one consensus tells how far apart the next is to start.
+    Found find_number(const Execution& execution) {
+        const std::size_t enough = params_.target_points;
+        const auto wanted = static_cast<double>(enough);
+        if (votes()) params_.target_points = std::llround(kPointsToDrop * wanted);
+        Consolidation consolidation(fields_, analysis_, params_);
+        Found found = points_of(consolidation.find(part_of(execution, 0.0, 0.6)));
+        SpacingSearch search(found.spacing, wanted);
+        for (std::size_t tries = 1;; ++tries) {
+            const Execution part = step_of(part_of(execution, 0.6, 1.0), tries - 1, kMostTries);
+            vote({kLeastSpread * found.spacing, kMostSpread * found.spacing, enough}, found,
+                 part_of(part, 0.0, 0.5));
+            const auto count = static_cast<double>(found.points.size());
+            if (search.accepts(count, kCountTolerance) || tries == kMostTries) return found;
+            found = {};  // gone before there are more
+            found = points_of(consolidation.find_again(search.spacing(), part_of(part, 0.5, 1.0)));
+        }
+    }
+
+    /// Moves the points as all LPFs decide, and keeps them apart.
+    void vote(const Apart& apart, Found& found, const Execution& execution) const {
+        if (!votes()) return;
+        put_to_vote(fields_, analysis_, noise_, found.spacing, found.points,
+                    part_of(execution, 0.0, 0.7));
+        found.spacing = spread_out(apart, found.points, part_of(execution, 0.7, 1.0));
+    }
+
+    const FieldSet& fields_;
+    const AnalysisResult& analysis_;
+    ResampleParams params_;
+    double noise_;
+};
 
 }  // namespace
 
@@ -130,7 +137,7 @@ ResampleResult resample(const Shape& shape, const ResampleParams& params,
     if (params.analysis.probing != ProbingKind::NearestTriangle) smooth.reset();
     fields->optimise_poses(params.analysis.pose_iterations, part_of(rest, 0.02, 0.1));
     AnalysisResult analysis = analyze(*fields, params.analysis, part_of(rest, 0.1, 0.5));
-    Found found = find_points(*fields, analysis, params, part_of(rest, 0.5, 0.9));
+    Found found = Agreement(*fields, analysis, params).find(part_of(rest, 0.5, 0.9));
     fields.reset();
     return_freed_memory();
     ResampleResult result{std::move(found.points.points),

@@ -64,16 +64,6 @@ void subtract_parabola(const float c[6], const float* x, const float* y, std::si
 void offsets_from_cubics(const float c[8], const float* x, const float* y, const float* z,
                          std::size_t n, float* out);
 
-/// out[i] = sum over k in [-reach, reach] of taps[k] in[i + k stride], for i in [0, n).
-/// @param taps points at the middle of 2 reach + 1 values
-void convolve(const float* in, float* out, std::size_t n, int stride, const float* taps, int reach);
-
-/// Which of the points is nearest to each of 16 nodes at (first_x + k step, row_y), k < 16.
-/// @param squared, point out: squared distance, infinite where there are no points, and whose it
-/// is; of equally near ones the first
-void nearest_to_nodes(const float* x, const float* y, std::size_t n, float first_x, float step,
-                      float row_y, float squared[16], int point[16]);
-
 inline constexpr std::size_t kGatherSlack = 16;
 
 /// Appends to the outputs the points of a run that lie within `limit` of the centre.

@@ -40,7 +40,7 @@ constexpr std::size_t kMostPoints = 3000;
 
 }  // namespace
 
-Piece PieceGrower::grow(const TargetArea& target, float noise, float extent) {
+Piece PieceGrower::grow(const TargetArea& target, float noise, float extent, float enough) {
     if (target.size < kFewestTargetPoints) return {};
     noise = std::max(noise, kLeastNoise);
     const auto points = static_cast<float>(std::min(target.size, kMostPoints));
@@ -55,6 +55,7 @@ Piece PieceGrower::grow(const TargetArea& target, float noise, float extent) {
     if (!piece.exists()) return piece;
     follow_crossing_curve(sample_, kSigmasOffCrossing, piece);
     widen_to_tube(sample_, kSigmasOffSurface, piece);
+    if (piece.squared_error < enough) return piece;
     fold_at_crease(sample_, kSigmasOffSurface, piece);
     split_sheets(sample_, kSigmasOffSurface, piece);
     return piece;

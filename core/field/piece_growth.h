@@ -12,8 +12,11 @@ public:
     /// @param target in centre-relative coordinates
     /// @param noise  standard deviation of the points off the shape [radius], >= 0
     /// @param extent of the target area [radius]
+    /// @param enough a squared error [squared radius]: of what errs less, no folds or sheets are
+    ///               looked for
     /// @returns a piece that does not exist where there are too few points
-    [[nodiscard]] Piece grow(const TargetArea& target, float noise, float extent);
+    [[nodiscard]] Piece grow(const TargetArea& target, float noise, float extent,
+                             float enough = 0.0F);
 
 private:
     [[nodiscard]] Piece grow_as(Dimension dimension, float noise);

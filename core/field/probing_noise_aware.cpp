@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/base/kernels.h"
+#include "core/base/probing_kernels.h"
 #include "core/field/probing.h"
 
 namespace lpf {
@@ -16,6 +16,8 @@ constexpr int kChannels = 4;
 constexpr float kLeastSupport = 0.3F;
 /// ...nor do those with less than this share of the mean support over the disk: beyond a border.
 constexpr float kLeastShare = 0.5F;
+
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
 class NoiseAwareProbing final : public ProbingOperator {
 public:
@@ -106,40 +108,33 @@ private:
         for (int i = 0; i < m; ++i) total += cell(scratch, cell_of_node, i)[0];
         const float least = std::max(kLeastSupport, kLeastShare * total / static_cast<float>(m));
 
-        scratch.cells.clear();   // nodes with support
-        scratch.cells2.clear();  // nodes without
+        scratch.cells.clear();  // nodes without support
+        std::vector<float>& handicap = scratch.raster2;
+        handicap.assign(static_cast<std::size_t>(stride), kInfinite);
         for (int i = 0; i < m; ++i) {
             const float* sums = cell(scratch, cell_of_node, i);
             if (sums[0] < least) {
-                scratch.cells2.push_back(i);
+                scratch.cells.push_back(i);
                 continue;
             }
-            scratch.cells.push_back(i);
+            handicap[static_cast<std::size_t>(i)] = 0.0F;
             const float inverse = 1 / sums[0];
             if (curve) v[stride + i] = sums[2] * inverse - pattern_.channel(1)[i];
             v[2 * stride + i] = sums[3] * inverse - pattern_.channel(2)[i];
         }
-        for (const int i : scratch.cells2) pull_to_support(scratch, cell_of_node, curve, i, v);
+        for (const int i : scratch.cells) pull_to_support(scratch, cell_of_node, curve, i, v);
     }
 
     void pull_to_support(const ProbeScratch& scratch, const std::vector<int>& cell_of_node,
                          bool curve, int node, float* v) const {
-        const float* x = pattern_.channel(0);
-        const float* y = pattern_.channel(1);
-        int best = -1;
-        float best_squared = std::numeric_limits<float>::infinity();
-        for (const int i : scratch.cells) {
-            const float dx = x[i] - x[node];
-            const float dy = curve ? 0.0F : y[i] - y[node];
-            const float squared = dx * dx + dy * dy;
-            if (squared < best_squared) {
-                best = i;
-                best_squared = squared;
-            }
-        }
-        if (best < 0) return;
-        const float* sums = cell(scratch, cell_of_node, best);
         const int stride = pattern_.padded_size();
+        const float* x = pattern_.channel(0);
+        const float* y = curve ? x : pattern_.channel(1);  // along a curve only x counts
+        const auto nearest = static_cast<int>(
+            kernels::nearest_to_place(x, y, scratch.raster2.data(),
+                                      static_cast<std::size_t>(stride), x[node], y[node]));
+        if (nearest == stride) return;
+        const float* sums = cell(scratch, cell_of_node, nearest);
         for (int c = 0; c < 3; ++c) {
             v[c * stride + node] = sums[c + 1] / sums[0] - pattern_.channel(c)[node];
         }

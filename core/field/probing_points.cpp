@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "core/base/kernels.h"
+#include "core/base/probing_kernels.h"
 #include "core/field/probing.h"
 
 namespace lpf {

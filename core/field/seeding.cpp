@@ -197,7 +197,7 @@ private:
         }
         seed.piece = grow(seed.frame, target, grower);
         if (trial.smaller > 0) {
-            seed.fits = suits(seed.piece, grow(smaller, target, grower), trial.smaller);
+            seed.fits = suits(seed.piece, smaller, trial.smaller, target, grower);
         } else {
             seed.fits = trial.last_chance || explains_its_points(seed.piece);
         }
@@ -213,24 +213,30 @@ private:
         return piece.exists() && piece.squared_bias <= piece.squared_error - piece.squared_bias;
     }
 
-    static bool suits(const Piece& piece, const Piece& smaller, double ratio) {
+    /// Whether the piece of a seed promises no larger error than that of a smaller frame.
+    /// @param ratio of their radii
+    [[nodiscard]] bool suits(const Piece& piece, const Frame& smaller, double ratio,
+                             TargetArea& target, PieceGrower& grower) const {
         if (!piece.exists()) return false;
-        if (!smaller.exists()) return true;
-        if (piece.is_curve() && !smaller.is_curve()) return true;  // as noise is near, it is thick
-        return static_cast<double>(piece.squared_error) <=
-               std::max(kExact,
-                        kTolerance * ratio * ratio * static_cast<double>(smaller.squared_error));
+        const auto error = static_cast<double>(piece.squared_error);
+        if (error <= kExact) return true;
+        const double enough = error / (kTolerance * ratio * ratio);
+        const Piece other = grow(smaller, target, grower, static_cast<float>(enough));
+        if (!other.exists()) return true;
+        if (piece.is_curve() && !other.is_curve()) return true;  // as noise is near, it is thick
+        return static_cast<double>(other.squared_error) >= enough;
     }
 
     void gather(const Frame& frame, TargetArea& target) const {
         grid_.gather(frame.centre, frame.radius, static_cast<float>(params_.target_radius), target);
     }
 
-    [[nodiscard]] Piece grow(const Frame& frame, TargetArea& target, PieceGrower& grower) const {
+    [[nodiscard]] Piece grow(const Frame& frame, TargetArea& target, PieceGrower& grower,
+                             float enough = 0.0F) const {
         if (params_.noise <= 0) return {};
         gather(frame, target);
         return grower.grow(target, static_cast<float>(params_.noise / frame.radius),
-                           static_cast<float>(params_.target_radius));
+                           static_cast<float>(params_.target_radius), enough);
     }
 
     /// Mean shift with a kernel as wide as the noise.

@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "core/base/random.h"
@@ -90,38 +88,6 @@ TEST_P(KernelsOf, CombineRowsAddsUpSomeRows) {
         }
         EXPECT_EQ(out[n], 77.0F) << "wrote past the end";
     }
-}
-
-TEST_P(KernelsOf, NearestToNodesIsTheFirstOfTheNearest) {
-    const Floats x = random_floats(n, 12);
-    Floats y = random_floats(n, 13);
-    if (n > 4) y[4] = y[2];
-    float squared[16];
-    int point[16];
-    kernels::nearest_to_nodes(x.data(), y.data(), n, -0.8F, 0.1F, 0.2F, squared, point);
-    for (int k = 0; k < 16; ++k) {
-        const float node = -0.8F + 0.1F * static_cast<float>(k);
-        float least = std::numeric_limits<float>::infinity();
-        for (std::size_t i = 0; i < n; ++i) {
-            least = std::min(least, (x[i] - node) * (x[i] - node) + (y[i] - 0.2F) * (y[i] - 0.2F));
-        }
-        if (n == 0) {
-            EXPECT_EQ(squared[k], least);
-            continue;
-        }
-        EXPECT_NEAR(squared[k], least, 1e-5F);
-        const auto found = static_cast<std::size_t>(point[k]);
-        EXPECT_NEAR(std::pow(x[found] - node, 2) + std::pow(y[found] - 0.2F, 2), least, 1e-5F);
-    }
-}
-
-TEST(Kernels, OfEquallyNearPointsTheFirstIsNearest) {
-    const Floats x(5, 0.3F);
-    const Floats y(5, 0.1F);
-    float squared[16];
-    int point[16];
-    kernels::nearest_to_nodes(x.data(), y.data(), 5, -0.8F, 0.1F, 0.2F, squared, point);
-    for (const int p : point) EXPECT_EQ(p, 0);
 }
 
 TEST_P(KernelsOf, AddScaledAddsAndStopsAtTheEnd) {
@@ -224,25 +190,6 @@ TEST_P(KernelsOf, OffsetsAreSquaredDistancesAlongTheNormals) {
     }
     EXPECT_EQ(parabola[n], 7.0F) << "wrote past the end";
     EXPECT_EQ(cubics[n], 7.0F) << "wrote past the end";
-}
-
-TEST_P(KernelsOf, ConvolveAgreesWithItsDefinition) {
-    constexpr int kReach = 2;
-    constexpr int kStride = 3;
-    const Floats taps = {0.5F, -1.0F, 2.0F, 0.25F, 3.0F};
-    const Floats in = random_floats(n + 2 * kReach * kStride, 13);
-    Floats out(n + 1, 7.0F);
-    const float* middle = in.data() + kReach * kStride;
-    kernels::convolve(middle, out.data(), n, kStride, taps.data() + kReach, kReach);
-    for (std::size_t i = 0; i < n; ++i) {
-        double expected = 0;
-        for (int k = -kReach; k <= kReach; ++k) {
-            expected += double{taps[static_cast<std::size_t>(k + kReach)]} *
-                        middle[static_cast<std::ptrdiff_t>(i) + k * kStride];
-        }
-        ASSERT_NEAR(out[i], expected, 1e-4);
-    }
-    EXPECT_EQ(out[n], 7.0F) << "wrote past the end";
 }
 
 TEST_P(KernelsOf, ToFrameIsTheTransposedAxesTimesTheOffset) {

@@ -1,0 +1,84 @@
+#include "core/base/probing_kernels.h"
+
+#include <cstring>
+#include <limits>
+
+#include "core/base/multiversion.h"
+
+namespace lpf::kernels {
+
+LPF_MULTIVERSION
+void convolve(const float* in, float* out, std::size_t n, int stride, const float* taps,
+              int reach) {
+    // A block of outputs stays in registers while all taps pass over it.
+    constexpr std::size_t kBlock = 64;
+    for (std::size_t begin = 0; begin < n; begin += kBlock) {
+        const std::size_t size = n - begin < kBlock ? n - begin : kBlock;
+        float sums[kBlock] = {};
+        for (int k = -reach; k <= reach; ++k) {
+            const float* from =
+                in + static_cast<std::ptrdiff_t>(begin) + static_cast<std::ptrdiff_t>(k) * stride;
+            const float tap = taps[k];
+            if (size == kBlock) {
+#pragma omp simd
+                for (std::size_t i = 0; i < kBlock; ++i) sums[i] += tap * from[i];
+            } else {
+#pragma omp simd
+                for (std::size_t i = 0; i < size; ++i) sums[i] += tap * from[i];
+            }
+        }
+        for (std::size_t i = 0; i < size; ++i) out[begin + i] = sums[i];
+    }
+}
+
+LPF_MULTIVERSION
+void nearest_to_nodes(const float* x, const float* y, std::size_t n, float first_x, float step,
+                      float row_y, float squared[16], int point[16]) {
+    Floats node;
+    for (int k = 0; k < kLanes; ++k) node[k] = first_x + step * static_cast<float>(k);
+    Floats nearest = std::numeric_limits<float>::infinity() - Floats{};
+    Ints who = Ints{};
+    for (std::size_t i = 0; i < n; ++i) {
+        const Floats dx = x[i] - node;
+        const float dy = y[i] - row_y;
+        const Floats d = dx * dx + dy * dy;
+        const Ints is_nearer = d < nearest;
+        who = is_nearer ? static_cast<int>(i) - Ints{} : who;
+        nearest = is_nearer ? d : nearest;
+    }
+    std::memcpy(squared, &nearest, sizeof nearest);
+    std::memcpy(point, &who, sizeof who);
+}
+
+LPF_MULTIVERSION
+std::size_t nearest_to_place(const float* x, const float* y, const float* handicap, std::size_t n,
+                             float at_x, float at_y) {
+    Floats nearest = std::numeric_limits<float>::infinity() - Floats{};
+    Ints who = static_cast<int>(n) - Ints{};
+    Ints number;
+    for (int k = 0; k < kLanes; ++k) number[k] = k;
+    for (std::size_t i = 0; i < n; i += kLanes) {
+        Floats dx, dy, d;
+        std::memcpy(&dx, x + i, sizeof dx);
+        std::memcpy(&dy, y + i, sizeof dy);
+        std::memcpy(&d, handicap + i, sizeof d);
+        dx -= at_x;
+        dy -= at_y;
+        d += dx * dx + dy * dy;
+        const Ints is_nearer = d < nearest;
+        who = is_nearer ? number : who;
+        nearest = is_nearer ? d : nearest;
+        number += kLanes;
+    }
+    std::size_t best = n;
+    float least = std::numeric_limits<float>::infinity();
+    for (int k = 0; k < kLanes; ++k) {
+        const auto point = static_cast<std::size_t>(who[k]);
+        if (nearest[k] > least || (nearest[k] == least && point >= best)) continue;
+        least = nearest[k];
+        best = point;
+    }
+    return best;
+}
+
+}  // namespace lpf::kernels

@@ -1,0 +1,122 @@
+#include "core/base/probing_kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/base/random.h"
+
+namespace lpf {
+namespace {
+
+using Floats = std::vector<float>;
+
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
+
+Floats random_floats(std::size_t n, std::uint64_t seed) {
+    Random random(seed);
+    Floats values(n);
+    for (float& value : values) value = static_cast<float>(random.normal());
+    return values;
+}
+
+/// Sizes below, at and above whole vectors.
+class ProbingKernelsOf : public testing::TestWithParam<std::size_t> {
+protected:
+    const std::size_t n = GetParam();
+};
+
+TEST_P(ProbingKernelsOf, NearestToNodesIsTheFirstOfTheNearest) {
+    const Floats x = random_floats(n, 12);
+    Floats y = random_floats(n, 13);
+    if (n > 4) y[4] = y[2];
+    float squared[16];
+    int point[16];
+    kernels::nearest_to_nodes(x.data(), y.data(), n, -0.8F, 0.1F, 0.2F, squared, point);
+    for (int k = 0; k < 16; ++k) {
+        const float node = -0.8F + 0.1F * static_cast<float>(k);
+        float least = std::numeric_limits<float>::infinity();
+        for (std::size_t i = 0; i < n; ++i) {
+            least = std::min(least, (x[i] - node) * (x[i] - node) + (y[i] - 0.2F) * (y[i] - 0.2F));
+        }
+        if (n == 0) {
+            EXPECT_EQ(squared[k], least);
+            continue;
+        }
+        EXPECT_NEAR(squared[k], least, 1e-5F);
+        const auto found = static_cast<std::size_t>(point[k]);
+        EXPECT_NEAR(std::pow(x[found] - node, 2) + std::pow(y[found] - 0.2F, 2), least, 1e-5F);
+    }
+}
+
+TEST(ProbingKernels, OfEquallyNearPointsTheFirstIsNearest) {
+    const Floats x(5, 0.3F);
+    const Floats y(5, 0.1F);
+    float squared[16];
+    int point[16];
+    kernels::nearest_to_nodes(x.data(), y.data(), 5, -0.8F, 0.1F, 0.2F, squared, point);
+    for (const int p : point) EXPECT_EQ(p, 0);
+}
+
+TEST(ProbingKernels, NearestToPlaceIsTheFirstOfTheNearestThatCount) {
+    for (const std::size_t n : {16U, 48U, 208U}) {
+        // On a lattice, many are equally near.
+        Floats x(n);
+        Floats y(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            x[i] = static_cast<float>(i % 5);
+            y[i] = static_cast<float>(i / 5);
+        }
+        Random random(n);
+        Floats handicap(n);
+        for (float& h : handicap) h = random.uniform(0, 1) < 0.7 ? kInfinite : 0.0F;
+        handicap[7] = 0.0F;
+        for (std::size_t place = 0; place < n; ++place) {
+            const auto squared = [&](std::size_t i) {
+                return std::pow(x[i] - x[place], 2.0F) + std::pow(y[i] - y[place], 2.0F);
+            };
+            std::size_t first = 7;
+            for (std::size_t i = n; i-- > 0;) {
+                if (handicap[i] == 0.0F && squared(i) <= squared(first)) first = i;
+            }
+            EXPECT_EQ(kernels::nearest_to_place(x.data(), y.data(), handicap.data(), n, x[place],
+                                                y[place]),
+                      first);
+        }
+    }
+}
+
+TEST(ProbingKernels, NothingIsNearestWhereNothingCounts) {
+    const Floats x(32, 0.5F);
+    const Floats handicap(32, kInfinite);
+    EXPECT_EQ(kernels::nearest_to_place(x.data(), x.data(), handicap.data(), 32, 0.5F, 0.5F), 32U);
+    EXPECT_EQ(kernels::nearest_to_place(x.data(), x.data(), handicap.data(), 0, 0.5F, 0.5F), 0U);
+}
+
+TEST_P(ProbingKernelsOf, ConvolveAgreesWithItsDefinition) {
+    constexpr int kReach = 2;
+    constexpr int kStride = 3;
+    const Floats taps = {0.5F, -1.0F, 2.0F, 0.25F, 3.0F};
+    const Floats in = random_floats(n + 2 * kReach * kStride, 13);
+    Floats out(n + 1, 7.0F);
+    const float* middle = in.data() + kReach * kStride;
+    kernels::convolve(middle, out.data(), n, kStride, taps.data() + kReach, kReach);
+    for (std::size_t i = 0; i < n; ++i) {
+        double expected = 0;
+        for (int k = -kReach; k <= kReach; ++k) {
+            expected += double{taps[static_cast<std::size_t>(k + kReach)]} *
+                        middle[static_cast<std::ptrdiff_t>(i) + k * kStride];
+        }
+        ASSERT_NEAR(out[i], expected, 1e-4);
+    }
+    EXPECT_EQ(out[n], 7.0F) << "wrote past the end";
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, ProbingKernelsOf,
+                         testing::Values(0, 1, 7, 8, 15, 16, 17, 31, 64, 193, 500));
+
+}  // namespace
+}  // namespace lpf
