@@ -137,7 +137,7 @@ private:
 
     [[nodiscard]] Choice<int> auto_analysis_iterations() const {
         if (task_ == Task::Denoise) return {1, "more do not lower the error of denoising"};
-        if (task_ == Task::Resample) return {3, "the energy hardly falls any more"};
+        if (task_ == Task::Resample) return {2, "the energy hardly falls any more"};
         return {10, "as in the paper"};
     }
 

@@ -46,15 +46,16 @@ std::vector<std::uint32_t> members_around(const MembersOfCells& members, const C
 
 }  // namespace
 
-CountSample::CountSample(const FieldSet& fields, const Proposer& proposer, double spacing, double points,
-                         const Execution& execution) {
+CountSample::CountSample(const FieldSet& fields, const Proposer& proposer, double spacing,
+                         double points, const Execution& execution) {
     double largest = 0.0;
     for (const Frame& frame : fields.frames) largest = std::max(largest, frame.radius);
     const CellLattice lattice{fields.frames[fields.size() / 2].centre,
                               std::max(kPartSide * spacing, kPartSideInRadii * largest)};
     const MembersOfCells members = members_of_cells(fields, lattice);
     const double cells = static_cast<double>(members.size());
-    const auto stride = static_cast<std::size_t>(std::ceil(std::max(cells / kParts, points / kPoints)));
+    const auto stride =
+        static_cast<std::size_t>(std::ceil(std::max(cells / kParts, points / kPoints)));
     double whole = 0.0;
     double parts = 0.0;
     std::vector<std::vector<std::uint32_t>> numbers;

@@ -63,9 +63,9 @@ Places places_of_nodes(const Pattern& pattern, double apart) {
     return places;
 }
 
-/// Places of a lattice `apart` [radius], each shaken by up to half of that, from the centre outwards:
-/// as many as the points that are searched for need, and no number that jumps with their spacing,
-/// as that of nodes would.
+/// Places of a lattice `apart` [radius], each shaken by up to half of that, from the centre
+/// outwards: as many as the points that are searched for need, and no number that jumps with their
+/// spacing, as that of nodes would.
 Places shaken_places(const Pattern& pattern, double apart) {
     const double finest = static_cast<double>(pattern.step()) / kMostSubdivisions;
     const double step = std::max(apart, finest);

@@ -24,6 +24,9 @@ constexpr float kSlope = 1.2F;
 
 constexpr float kReach = 2.0F;  // target areas are no wider
 
+/// So few points are faster looked at all than sought in cells.
+constexpr std::size_t kFewPoints = 80;
+
 /// The points in the cells around a place: some runs of them, one for each row of cells.
 struct Runs {
     static constexpr int kMost = 5;
@@ -54,9 +57,14 @@ inline void subtract(const float* values, float to, Floats& out) {
 }
 
 inline float least_of_lanes(const Floats& values) {
-    float least = values[0];
-    for (int lane = 1; lane < kLanes; ++lane) least = std::min(least, values[lane]);
-    return least;
+    float lanes[kLanes];
+    std::memcpy(lanes, &values, sizeof lanes);
+    for (int half = kLanes / 2; half > 0; half /= 2) {
+        for (int lane = 0; lane < half; ++lane) {
+            lanes[lane] = lanes[lane + half] < lanes[lane] ? lanes[lane + half] : lanes[lane];
+        }
+    }
+    return lanes[0];
 }
 
 /// Squared distances of the nearest points to a place in the plane and to one in space. Points
@@ -125,7 +133,8 @@ bool surround(const Runs& runs, const PointArrays& p, const float* place, float 
 
 Support::Support(const Piece& piece, const TargetArea& target, float distance)
     : distance_(distance) {
-    side_ = static_cast<int>(std::min(256.0F, std::ceil(2 * kReach / distance))) + 1;
+    const bool few = target.size <= kFewPoints;
+    side_ = few ? 1 : static_cast<int>(std::min(256.0F, std::ceil(2 * kReach / distance))) + 1;
     std::vector<int> cell(target.size);
     first_.assign(static_cast<std::size_t>(side_ * side_) + 2, 0);
     for (std::size_t i = 0; i < target.size; ++i) {

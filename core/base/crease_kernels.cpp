@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "core/base/blur.h"
 #include "core/base/multiversion.h"
@@ -65,17 +66,39 @@ void offsets_from_crease(const CreasedSurface& s, const float* x, const float* y
 }
 
 LPF_MULTIVERSION
-void line_sums(float normal_x, float normal_y, float at, const float* x, const float* y,
-               const float* z, const float* weight, std::size_t n, float out[5]) {
-    float d0 = 0, dx = 0, dy = 0, dd = 0, dz = 0;
-#pragma omp simd reduction(+ : d0, dx, dy, dd, dz)
+void subtract_crease(const CreasedSurface& s, const float* x, const float* y, std::size_t n,
+                     float* z) {
+#pragma omp simd
     for (std::size_t i = 0; i < n; ++i) {
-        const float d = std::abs(normal_x * x[i] + normal_y * y[i] - at);
-        const float weighted = weight[i] * d;
-        d0 += weighted, dx += weighted * x[i], dy += weighted * y[i];
-        dd += weighted * d, dz += weighted * z[i];
+        const float distance = blur(s.normal_x * x[i] + s.normal_y * y[i] - s.at, s.noise).distance;
+        z[i] -= parabola(s.c, x[i], y[i]) + s.slope * distance;
     }
-    out[0] = d0, out[1] = dx, out[2] = dy, out[3] = dd, out[4] = dz;
+}
+
+LPF_MULTIVERSION
+void line_sums(const Lines& lines, const float* x, const float* y, const float* z,
+               const float* weight, std::size_t n, float* out) {
+    for (std::size_t k = 0; k < lines.count; k += kLanes) {
+        Floats normal_x, normal_y, at;
+        std::memcpy(&normal_x, lines.normal_x + k, sizeof normal_x);
+        std::memcpy(&normal_y, lines.normal_y + k, sizeof normal_y);
+        std::memcpy(&at, lines.at + k, sizeof at);
+        Floats sums[5] = {};
+        for (std::size_t i = 0; i < n; ++i) {
+            const Floats signed_distance = normal_x * x[i] + normal_y * y[i] - at;
+            const Floats d = signed_distance < 0 ? -signed_distance : signed_distance;
+            const Floats weighted = weight[i] * d;
+            sums[0] += weighted;
+            sums[1] += weighted * x[i];
+            sums[2] += weighted * y[i];
+            sums[3] += weighted * d;
+            sums[4] += weighted * z[i];
+        }
+        for (int row = 0; row < 5; ++row) {
+            std::memcpy(out + static_cast<std::size_t>(row) * lines.count + k, &sums[row],
+                        sizeof sums[row]);
+        }
+    }
 }
 
 void crease_moments(const CreasedSurface& surface, const float* x, const float* y, const float* z,

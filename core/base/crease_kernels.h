@@ -19,9 +19,21 @@ struct CreasedSurface {
 void offsets_from_crease(const CreasedSurface& surface, const float* x, const float* y,
                          const float* z, std::size_t n, float* out);
 
-/// Sums of weight times the distance d to the line normal . (x, y) = at: of d, d x, d y, d d, d z.
-void line_sums(float normal_x, float normal_y, float at, const float* x, const float* y,
-               const float* z, const float* weight, std::size_t n, float out[5]);
+/// z[i] -= surface(x[i], y[i]).
+void subtract_crease(const CreasedSurface& surface, const float* x, const float* y, std::size_t n,
+                     float* z);
+
+/// Lines normal . (x, y) = at.
+struct Lines {
+    const float *normal_x, *normal_y, *at;
+    std::size_t count;  ///< a multiple of 16
+};
+
+/// For each line, sums over n places of weight times the distance d to it: of d, d x, d y, d d, d
+/// z.
+/// @param out 5 x lines.count, row-major
+void line_sums(const Lines& lines, const float* x, const float* y, const float* z,
+               const float* weight, std::size_t n, float* out);
 
 /// The rows of a Gauss-Newton step on a creased surface.
 inline constexpr int kCreaseRows = 10;

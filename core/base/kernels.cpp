@@ -265,4 +265,19 @@ void offsets_from_cubics(const float c[8], const float* x, const float* y, const
     }
 }
 
+LPF_MULTIVERSION
+void block_numbers(const float* x, const float* y, float extent, int side, std::size_t n,
+                   unsigned* out) {
+    const auto count = static_cast<float>(side);
+    const auto last = static_cast<float>(side - 1);
+#pragma omp simd
+    for (std::size_t i = 0; i < n; ++i) {
+        const float along = (x[i] / extent + 1) / 2 * count;
+        const float across = (y[i] / extent + 1) / 2 * count;
+        const float column = along < 0 ? 0.0F : along > last ? last : along;
+        const float row = across < 0 ? 0.0F : across > last ? last : across;
+        out[i] = static_cast<unsigned>(static_cast<int>(row) * side + static_cast<int>(column));
+    }
+}
+
 }  // namespace lpf::kernels

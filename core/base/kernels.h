@@ -64,6 +64,11 @@ void subtract_parabola(const float c[6], const float* x, const float* y, std::si
 void offsets_from_cubics(const float c[8], const float* x, const float* y, const float* z,
                          std::size_t n, float* out);
 
+/// Numbers of the blocks of a raster over [-extent, extent]^2 that points lie in, row by row; those
+/// beyond it belong to the outermost. @param side number of blocks along an axis
+void block_numbers(const float* x, const float* y, float extent, int side, std::size_t n,
+                   unsigned* out);
+
 inline constexpr std::size_t kGatherSlack = 16;
 
 /// Appends to the outputs the points of a run that lie within `limit` of the centre.

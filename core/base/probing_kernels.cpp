@@ -51,20 +51,19 @@ void nearest_to_nodes(const float* x, const float* y, std::size_t n, float first
 }
 
 LPF_MULTIVERSION
-std::size_t nearest_to_place(const float* x, const float* y, const float* handicap, std::size_t n,
-                             float at_x, float at_y) {
+std::size_t nearest_to_place(const float* x, const float* y, std::size_t n, float at_x,
+                             float at_y) {
     Floats nearest = std::numeric_limits<float>::infinity() - Floats{};
     Ints who = static_cast<int>(n) - Ints{};
     Ints number;
     for (int k = 0; k < kLanes; ++k) number[k] = k;
     for (std::size_t i = 0; i < n; i += kLanes) {
-        Floats dx, dy, d;
+        Floats dx, dy;
         std::memcpy(&dx, x + i, sizeof dx);
         std::memcpy(&dy, y + i, sizeof dy);
-        std::memcpy(&d, handicap + i, sizeof d);
         dx -= at_x;
         dy -= at_y;
-        d += dx * dx + dy * dy;
+        const Floats d = dx * dx + dy * dy;
         const Ints is_nearer = d < nearest;
         who = is_nearer ? number : who;
         nearest = is_nearer ? d : nearest;

@@ -15,10 +15,9 @@ void convolve(const float* in, float* out, std::size_t n, int stride, const floa
 void nearest_to_nodes(const float* x, const float* y, std::size_t n, float first_x, float step,
                       float row_y, float squared[16], int point[16]);
 
-/// Which of some points is nearest to a place: of equally near ones the first, n if there is none.
-/// @param handicap of each point, added to its squared distance: one of infinite handicap is none
-/// @param n a multiple of 16
-std::size_t nearest_to_place(const float* x, const float* y, const float* handicap, std::size_t n,
-                             float at_x, float at_y);
+/// Which of the points is nearest to a place: of equally near ones the first, n if there is none.
+/// @param n a multiple of 16; points at infinity fill up
+std::size_t nearest_to_place(const float* x, const float* y, std::size_t n, float at_x,
+                             float at_y);
 
 }  // namespace lpf::kernels

@@ -6,9 +6,9 @@
 #include <limits>
 #include <numbers>
 #include <optional>
-#include <vector>
 
-#include "core/base/blur.h"
+#include "core/base/crease_kernels.h"
+#include "core/base/kernels.h"
 #include "core/base/normal_equations.h"
 #include "core/field/piece_fit.h"
 
@@ -32,6 +32,7 @@ constexpr double kLeastOnEachSide = 0.2;
 
 /// First guess: two planes to the means of blocks, for some directions and offsets.
 constexpr int kBlocks = 7;
+constexpr std::size_t kPointsAtOnce = 256;
 constexpr int kDirections = 12;
 constexpr int kOffsets = 2;  // to either side
 constexpr double kOffsetStep = 0.25;
@@ -59,24 +60,18 @@ void set_line(const Line& line, Crease& crease) {
     crease.at = static_cast<float>(line.at);
 }
 
-/// Means of the points in the blocks of a raster, padded with blocks of no weight.
+/// Means of the points in the blocks of a raster.
 struct BlockMeans {
-    static constexpr std::size_t kSize = 64;
-    static_assert(kBlocks * kBlocks <= kSize);
+    static constexpr std::size_t kSize = kBlocks * kBlocks;
     std::array<float, kSize> weight{}, x{}, y{}, z{};
 
     explicit BlockMeans(const PieceSample& sample) {
-        const auto cell = [&](float value) {
-            const float share = (value / sample.extent() + 1) / 2;
-            return std::clamp(static_cast<int>(share * kBlocks), 0, kBlocks - 1);
-        };
-        for (std::size_t i = 0; i < sample.size(); ++i) {
-            const auto b =
-                static_cast<std::size_t>(cell(sample.y[i]) * kBlocks + cell(sample.x[i]));
-            weight[b] += 1;
-            x[b] += sample.x[i];
-            y[b] += sample.y[i];
-            z[b] += sample.z[i];
+        unsigned block[kPointsAtOnce];
+        for (std::size_t begin = 0; begin < sample.size(); begin += kPointsAtOnce) {
+            const std::size_t n = std::min(kPointsAtOnce, sample.size() - begin);
+            kernels::block_numbers(&sample.x[begin], &sample.y[begin], sample.extent(), kBlocks, n,
+                                   block);
+            for (std::size_t i = 0; i < n; ++i) add(block[i], sample, begin + i);
         }
         for (std::size_t b = 0; b < kSize; ++b) {
             const float count = std::max(weight[b], 1.0F);
@@ -85,29 +80,43 @@ struct BlockMeans {
             z[b] /= count;
         }
     }
-};
 
-/// The lines that a guess is made among, and their normals.
-struct Guess {
-    Line line;
-    float normal_x;
-    float normal_y;
-};
-
-std::vector<Guess> all_guesses() {
-    std::vector<Guess> guesses;
-    for (int k = 0; k < kDirections * (2 * kOffsets + 1); ++k) {
-        const Line line{k % kDirections * std::numbers::pi / kDirections,
-                        (k / kDirections - kOffsets) * kOffsetStep};
-        guesses.push_back({line, static_cast<float>(line.x()), static_cast<float>(line.y())});
+private:
+    void add(unsigned b, const PieceSample& sample, std::size_t i) {
+        weight[b] += 1;
+        x[b] += sample.x[i];
+        y[b] += sample.y[i];
+        z[b] += sample.z[i];
     }
-    return guesses;
-}
+};
+
+/// The lines that a guess is made among, and some that are never taken, for whole vectors.
+struct Guesses {
+    static constexpr std::size_t kLines = kDirections * (2 * kOffsets + 1);
+    static constexpr std::size_t kSize = (kLines + 15) / 16 * 16;
+    std::array<Line, kLines> line;
+    std::array<float, kSize> normal_x{}, normal_y{}, at{};
+
+    Guesses() {
+        for (int k = 0; k < static_cast<int>(kLines); ++k) {
+            const auto i = static_cast<std::size_t>(k);
+            line[i] = {k % kDirections * std::numbers::pi / kDirections,
+                       (k / kDirections - kOffsets) * kOffsetStep};
+            normal_x[i] = static_cast<float>(line[i].x());
+            normal_y[i] = static_cast<float>(line[i].y());
+            at[i] = static_cast<float>(line[i].at);
+        }
+    }
+
+    [[nodiscard]] kernels::Lines lines() const {
+        return {normal_x.data(), normal_y.data(), at.data(), kSize};
+    }
+};
 
 /// The best two planes over all points of the target area. What does not depend on the line is
 /// eliminated once: each line then costs five sums over the blocks.
 Line guess_line(const PieceSample& sample, Piece& piece) {
-    static const std::vector<Guess> kGuesses = all_guesses();
+    static const Guesses kGuesses;
     const BlockMeans blocks(sample);
     NormalEquations<3> plane;
     for (std::size_t b = 0; b < BlockMeans::kSize; ++b) {
@@ -117,22 +126,21 @@ Line guess_line(const PieceSample& sample, Piece& piece) {
     const Eigen::Matrix3d inverse = plane.decomposed().solve(Eigen::Matrix3d::Identity());
     const Eigen::Vector3d flat = inverse * plane.right();
 
+    float of_distance[5][Guesses::kSize];
+    kernels::line_sums(kGuesses.lines(), blocks.x.data(), blocks.y.data(), blocks.z.data(),
+                       blocks.weight.data(), BlockMeans::kSize, of_distance[0]);
     double most = -1;
     Line best;
     Eigen::Vector3d best_sums = Eigen::Vector3d::Zero();
-    for (const Guess& guess : kGuesses) {
-        float of_distance[5];
-        kernels::line_sums(guess.normal_x, guess.normal_y, static_cast<float>(guess.line.at),
-                           blocks.x.data(), blocks.y.data(), blocks.z.data(), blocks.weight.data(),
-                           BlockMeans::kSize, of_distance);
-        const Eigen::Vector3d sums(of_distance[0], of_distance[1], of_distance[2]);
-        const double squares = of_distance[3];
+    for (std::size_t k = 0; k < Guesses::kLines; ++k) {
+        const Eigen::Vector3d sums(of_distance[0][k], of_distance[1][k], of_distance[2][k]);
+        const double squares = of_distance[3][k];
         const double free = squares - sums.dot(inverse * sums);
         if (free <= kLeastFree * squares) continue;
-        const double slope = (static_cast<double>(of_distance[4]) - sums.dot(flat)) / free;
+        const double slope = (static_cast<double>(of_distance[4][k]) - sums.dot(flat)) / free;
         if (slope * slope * free <= most) continue;
         most = slope * slope * free;
-        best = guess.line;
+        best = kGuesses.line[k];
         best_sums = sums;
         piece.crease.slope = static_cast<float>(slope);
     }

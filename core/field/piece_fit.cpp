@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
+#include "core/base/crease_kernels.h"
 #include "core/base/kernels.h"
 #include "core/base/normal_equations.h"
 
@@ -19,6 +19,8 @@ constexpr double kDampingOfBends = 1e-5;
 /// Blocks along an axis of a surface, and along a curve.
 constexpr int kBlocks = 7;
 constexpr int kCurveBlocks = 14;
+
+constexpr std::size_t kPointsAtOnce = 256;
 
 /// A curve holds about as many points everywhere. Blocks that hold so many standard deviations more
 /// than the lowest fourth are crowded: another part of the shape passes there. If most are, none
@@ -117,16 +119,86 @@ struct Block {
 
 using Blocks = std::array<Block, kBlocks * kBlocks>;
 
-/// Blocks of a tube lie along it and around it: (y, z) is the offset from its axis.
-std::size_t block_of(const Piece& piece, float extent, float x, float y, float z) {
-    if (piece.is_tube()) {
-        constexpr float kHalfTurn = std::numbers::pi_v<float>;
-        return block_along(kHalfTurn, std::atan2(z, y), kBlocks) * kBlocks +
-               block_along(extent, x, kBlocks);
-    }
-    if (piece.is_curve()) return block_along(extent, x, kCurveBlocks);
-    return block_along(extent, y, kBlocks) * kBlocks + block_along(extent, x, kBlocks);
+/// Of a curve, a block lies along it; of a tube, also around it: (y, z) is the offset from its
+/// axis.
+std::size_t block_of(const Piece& curve, float extent, float x, float y, float z) {
+    if (!curve.is_tube()) return block_along(extent, x, kCurveBlocks);
+    constexpr float kHalfTurn = std::numbers::pi_v<float>;
+    return block_along(kHalfTurn, std::atan2(z, y), kBlocks) * kBlocks +
+           block_along(extent, x, kBlocks);
 }
+
+/// What the members of a piece leave of its mean, block by block.
+class Remainders {
+public:
+    Remainders(const PieceSample& sample, const Piece& piece) : sample_(sample), piece_(piece) {
+        if (piece.is_curve()) {
+            add_curve();
+        } else {
+            add_surface();
+        }
+    }
+
+    [[nodiscard]] std::size_t members() const { return members_; }
+    [[nodiscard]] const Blocks& blocks() const { return blocks_; }
+
+private:
+    void add_curve() {
+        const Crowd crowd(sample_, sample_.size(), piece_);
+        for (std::size_t i = 0; i < sample_.size(); ++i) {
+            if (!sample_.is_member(piece_, i) || crowd.holds(i)) continue;
+            const float x = sample_.x[i];
+            const Eigen::Vector3f mean = piece_.mean(x, sample_.y[i]);
+            float dy = sample_.y[i] - mean.y();
+            float dz = sample_.z[i] - mean.z();
+            const std::size_t block = block_of(piece_, sample_.extent(), x, dy, dz);
+            if (piece_.is_tube()) {
+                // Noise moves points outwards on average.
+                const float radius = piece_.half_gap(x, 0);
+                dz = std::hypot(dy, dz) - std::hypot(radius, piece_.noise);
+                dy = 0;
+            }
+            add(block, dy, dz);
+        }
+    }
+
+    void add_surface() {
+        unsigned block[kPointsAtOnce];
+        float offset[kPointsAtOnce];
+        for (std::size_t begin = 0; begin < sample_.size(); begin += kPointsAtOnce) {
+            const std::size_t n = std::min(kPointsAtOnce, sample_.size() - begin);
+            const float* x = &sample_.x[begin];
+            const float* y = &sample_.y[begin];
+            kernels::block_numbers(x, y, sample_.extent(), kBlocks, n, block);
+            std::copy_n(&sample_.z[begin], n, offset);
+            if (piece_.crease.slope != 0) {
+                kernels::subtract_crease(creased_surface(piece_), x, y, n, offset);
+            } else {
+                kernels::subtract_parabola(piece_.coefficients, x, y, n, offset);
+            }
+            for (std::size_t i = 0; i < n; ++i) {
+                if (!sample_.is_member(piece_, begin + i)) continue;
+                float dy = 0;
+                piece_.to_nearer_sheet(x[i], y[i], dy, offset[i]);
+                add(block[i], 0, offset[i]);
+            }
+        }
+    }
+
+    void add(std::size_t block, float dy, float dz) {
+        Block& of = blocks_[block];
+        of.points += 1;
+        of.y += dy;
+        of.z += dz;
+        of.squares += double{dy} * dy + double{dz} * dz;
+        ++members_;
+    }
+
+    const PieceSample& sample_;
+    const Piece& piece_;
+    Blocks blocks_{};
+    std::size_t members_ = 0;
+};
 
 double unknowns_of(const Piece& piece) {
     if (piece.is_curve()) return 8 + (piece.is_tube() ? 2 : 0);
@@ -144,32 +216,8 @@ void fit_smooth(const PieceSample& sample, std::size_t count, Piece& piece) {
 }
 
 std::size_t estimate_error(const PieceSample& sample, Piece& piece) {
-    Blocks blocks{};
-    std::size_t members = 0;
-    std::optional<Crowd> crowd;
-    if (piece.is_curve()) crowd.emplace(sample, sample.size(), piece);
-    for (std::size_t i = 0; i < sample.size(); ++i) {
-        if (!sample.is_member(piece, i) || (crowd && crowd->holds(i))) continue;
-        ++members;
-        const float x = sample.x[i];
-        const float y = sample.y[i];
-        const Eigen::Vector3f mean = piece.mean(x, y);
-        float dy = piece.is_curve() ? y - mean.y() : 0;
-        float dz = sample.z[i] - mean.z();
-        Block& block = blocks[block_of(piece, sample.extent(), x, piece.is_tube() ? dy : y, dz)];
-        if (piece.is_tube()) {
-            // Noise moves points outwards on average.
-            const float radius = piece.half_gap(x, 0);
-            dz = std::hypot(dy, dz) - std::hypot(radius, piece.noise);
-            dy = 0;
-        } else {
-            piece.to_nearer_sheet(x, y, dy, dz);
-        }
-        block.points += 1;
-        block.y += dy;
-        block.z += dz;
-        block.squares += double{dy} * dy + double{dz} * dz;
-    }
+    const Remainders remainders(sample, piece);
+    const std::size_t members = remainders.members();
     const double unknowns = unknowns_of(piece);
     const auto n = static_cast<double>(members);
     if (n < unknowns + 2) {
@@ -179,7 +227,7 @@ std::size_t estimate_error(const PieceSample& sample, Piece& piece) {
     double used = 0;
     double between = 0;
     double within = 0;
-    for (const Block& block : blocks) {
+    for (const Block& block : remainders.blocks()) {
         if (block.points == 0) continue;
         const double of_means = (block.y * block.y + block.z * block.z) / block.points;
         used += 1;

@@ -108,35 +108,44 @@ private:
         for (int i = 0; i < m; ++i) total += cell(scratch, cell_of_node, i)[0];
         const float least = std::max(kLeastSupport, kLeastShare * total / static_cast<float>(m));
 
-        scratch.cells.clear();  // nodes without support
-        std::vector<float>& handicap = scratch.raster2;
-        handicap.assign(static_cast<std::size_t>(stride), kInfinite);
+        scratch.cells.clear();   // nodes with support
+        scratch.cells2.clear();  // nodes without
         for (int i = 0; i < m; ++i) {
             const float* sums = cell(scratch, cell_of_node, i);
             if (sums[0] < least) {
-                scratch.cells.push_back(i);
+                scratch.cells2.push_back(i);
                 continue;
             }
-            handicap[static_cast<std::size_t>(i)] = 0.0F;
+            scratch.cells.push_back(i);
             const float inverse = 1 / sums[0];
             if (curve) v[stride + i] = sums[2] * inverse - pattern_.channel(1)[i];
             v[2 * stride + i] = sums[3] * inverse - pattern_.channel(2)[i];
         }
-        for (const int i : scratch.cells) pull_to_support(scratch, cell_of_node, curve, i, v);
+        pull_to_support(scratch, cell_of_node, curve, v);
     }
 
-    void pull_to_support(const ProbeScratch& scratch, const std::vector<int>& cell_of_node,
-                         bool curve, int node, float* v) const {
+    /// Nodes without support go to the mean of the nearest node that has it; along a curve only x
+    /// counts.
+    void pull_to_support(ProbeScratch& scratch, const std::vector<int>& cell_of_node, bool curve,
+                         float* v) const {
+        if (scratch.cells.empty() || scratch.cells2.empty()) return;
         const int stride = pattern_.padded_size();
         const float* x = pattern_.channel(0);
-        const float* y = curve ? x : pattern_.channel(1);  // along a curve only x counts
-        const auto nearest = static_cast<int>(
-            kernels::nearest_to_place(x, y, scratch.raster2.data(),
-                                      static_cast<std::size_t>(stride), x[node], y[node]));
-        if (nearest == stride) return;
-        const float* sums = cell(scratch, cell_of_node, nearest);
-        for (int c = 0; c < 3; ++c) {
-            v[c * stride + node] = sums[c + 1] / sums[0] - pattern_.channel(c)[node];
+        const float* y = curve ? x : pattern_.channel(1);
+        const std::size_t n = (scratch.cells.size() + 15) / 16 * 16;
+        scratch.raster2.assign(2 * n, kInfinite);  // nothing is nearer than what fills it up
+        float* const near_x = scratch.raster2.data();
+        float* const near_y = near_x + n;
+        for (std::size_t k = 0; k < scratch.cells.size(); ++k) {
+            near_x[k] = x[scratch.cells[k]];
+            near_y[k] = y[scratch.cells[k]];
+        }
+        for (const int i : scratch.cells2) {
+            const std::size_t nearest = kernels::nearest_to_place(near_x, near_y, n, x[i], y[i]);
+            const float* sums = cell(scratch, cell_of_node, scratch.cells[nearest]);
+            for (int c = 0; c < 3; ++c) {
+                v[c * stride + i] = sums[c + 1] / sums[0] - pattern_.channel(c)[i];
+            }
         }
     }
 

@@ -189,23 +189,29 @@ private:
         shift_to_shape(seed.frame, target);
         seed.is_needless = is_cared_for(seed.frame.centre, target);
         if (seed.is_needless) return seed;
-        Frame smaller = seed.frame;
-        smaller.radius *= trial.smaller;
+        gather(seed.frame, target);
+        if (trial.smaller > 0 && is_enough(trial, target)) return seed;
+        seed.piece = grow(trial.radius, target, grower);
         if (trial.smaller > 0) {
-            gather(smaller, target);
-            if (is_enough(smaller.radius, target.size)) return seed;
-        }
-        seed.piece = grow(seed.frame, target, grower);
-        if (trial.smaller > 0) {
-            seed.fits = suits(seed.piece, smaller, trial.smaller, target, grower);
+            seed.fits = suits(seed, trial, target, grower);
         } else {
             seed.fits = trial.last_chance || explains_its_points(seed.piece);
         }
         return seed;
     }
 
-    [[nodiscard]] bool is_enough(double radius, std::size_t points) const {
-        return points > kEnoughPoints && radius >= kEnoughSigmas * params_.noise;
+    /// Whether the smaller size is so large that this one could hardly average better.
+    /// @param target of this size
+    [[nodiscard]] bool is_enough(const Trial& trial, const TargetArea& target) const {
+        if (trial.smaller * trial.radius < kEnoughSigmas * params_.noise) return false;
+        if (target.size <= kEnoughPoints) return false;
+        const auto reach = static_cast<float>(trial.smaller * params_.target_radius);
+        std::size_t within = 0;
+        for (std::size_t i = 0; i < target.size; ++i) {
+            const float x = target.x[i], y = target.y[i], z = target.z[i];
+            within += static_cast<std::size_t>(x * x + y * y + z * z <= reach * reach);
+        }
+        return within > kEnoughPoints;
     }
 
     [[nodiscard]] bool explains_its_points(const Piece& piece) const {
@@ -213,17 +219,20 @@ private:
         return piece.exists() && piece.squared_bias <= piece.squared_error - piece.squared_bias;
     }
 
-    /// Whether the piece of a seed promises no larger error than that of a smaller frame.
-    /// @param ratio of their radii
-    [[nodiscard]] bool suits(const Piece& piece, const Frame& smaller, double ratio,
-                             TargetArea& target, PieceGrower& grower) const {
-        if (!piece.exists()) return false;
-        const auto error = static_cast<double>(piece.squared_error);
+    /// Whether the piece of a seed promises no larger error than one of the smaller size there.
+    [[nodiscard]] bool suits(const Seed& seed, const Trial& trial, TargetArea& target,
+                             PieceGrower& grower) const {
+        if (!seed.piece.exists()) return false;
+        const auto error = static_cast<double>(seed.piece.squared_error);
         if (error <= kExact) return true;
-        const double enough = error / (kTolerance * ratio * ratio);
-        const Piece other = grow(smaller, target, grower, static_cast<float>(enough));
+        Frame smaller = seed.frame;
+        smaller.radius *= trial.smaller;
+        gather(smaller, target);
+        const double enough = error / (kTolerance * trial.smaller * trial.smaller);
+        const Piece other = grow(smaller.radius, target, grower, static_cast<float>(enough));
         if (!other.exists()) return true;
-        if (piece.is_curve() && !other.is_curve()) return true;  // as noise is near, it is thick
+        if (seed.piece.is_curve() && !other.is_curve())
+            return true;  // as noise is near, it is thick
         return static_cast<double>(other.squared_error) >= enough;
     }
 
@@ -231,11 +240,11 @@ private:
         grid_.gather(frame.centre, frame.radius, static_cast<float>(params_.target_radius), target);
     }
 
-    [[nodiscard]] Piece grow(const Frame& frame, TargetArea& target, PieceGrower& grower,
+    /// The piece of what is gathered.
+    [[nodiscard]] Piece grow(double radius, const TargetArea& target, PieceGrower& grower,
                              float enough = 0.0F) const {
         if (params_.noise <= 0) return {};
-        gather(frame, target);
-        return grower.grow(target, static_cast<float>(params_.noise / frame.radius),
+        return grower.grow(target, static_cast<float>(params_.noise / radius),
                            static_cast<float>(params_.target_radius), enough);
     }
 

@@ -29,7 +29,7 @@ constexpr float kSigmasOfSearch = 6.0F;
 constexpr double kShareOfKurtosis = 0.7;
 
 constexpr int kRounds = 3;
-constexpr std::size_t kFewestMembers = 20;
+constexpr double kFewestMembers = 20;
 constexpr double kDampingOfTilt = 1e-3;
 
 /// Two sheets bend alike: what lies off the surface midway between them, place by place, is less
@@ -43,18 +43,23 @@ struct Scatter {
     double fourth = 0;
 };
 
-std::optional<Scatter> scatter(const PieceSample& sample, const Piece& piece) {
-    NormalEquations<3> equations;
+/// @returns nothing where there are few members, or they scatter less than `least`
+std::optional<Scatter> scatter(const PieceSample& sample, const Piece& piece, double least) {
     Scatter result;
+    double n = 0;
+    for (std::size_t i = 0; i < sample.size(); ++i) {
+        if (!sample.is_member(piece, i)) continue;
+        result.second += static_cast<double>(sample.squared_offset[i]);
+        n += 1;
+    }
+    if (n < kFewestMembers || result.second < least * n) return std::nullopt;
+    NormalEquations<3> equations;
     for (std::size_t i = 0; i < sample.size(); ++i) {
         if (!sample.is_member(piece, i)) continue;
         const double squared = sample.squared_offset[i];
         equations.add({1, sample.x[i], sample.y[i]}, {squared});
-        result.second += squared;
         result.fourth += squared * squared;
     }
-    const double n = equations.count();
-    if (n < kFewestMembers) return std::nullopt;
     equations.damp(1, kDampingOfTilt);
     equations.damp(2, kDampingOfTilt);
     result.squared_gap = equations.solve();
@@ -76,8 +81,9 @@ std::optional<Piece> two_sheets(PieceSample& sample, float sigmas, Piece piece) 
     for (int round = 0; round < kRounds; ++round) {
         fit_smooth(sample, sample.size(), piece);
         sample.measure(piece, sample.size());
-        const std::optional<Scatter> now = scatter(sample, piece);
-        if (!now || (round == 0 && now->second < kLeastScatter * variance)) return std::nullopt;
+        const double least = round == 0 ? kLeastScatter * variance : 0.0;
+        const std::optional<Scatter> now = scatter(sample, piece, least);
+        if (!now) return std::nullopt;
         found = *now;
         const double gap = found.squared_gap[0];
         if (gap < kThinnest * variance || gap > kThickest * variance) return std::nullopt;

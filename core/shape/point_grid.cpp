@@ -183,13 +183,14 @@ void PointGrid::gather(const Eigen::Vector3d& centre, double unit, float reach,
                        NearPoints& near) const {
     near.size = 0;
     const Eigen::Vector3d relative = centre - origin_;
-    const double ball = unit * static_cast<double>(reach);
+    const Eigen::Vector3d place = inverse_cell_ * relative;  // [cells]
+    const double ball = kRoundingUp * inverse_cell_ * unit * static_cast<double>(reach);
     std::uint64_t low[3];
     std::uint64_t high[3];
     for (int axis = 0; axis < 3; ++axis) {
         const double last = static_cast<double>(size_[axis] - 1);
-        const double first_cell = std::floor((relative[axis] - ball) * inverse_cell_);
-        const double last_cell = std::floor((relative[axis] + ball) * inverse_cell_);
+        const double first_cell = std::floor(place[axis] - ball);
+        const double last_cell = std::floor(place[axis] + ball);
         if (last_cell < 0 || first_cell > last) return;
         low[axis] = static_cast<std::uint64_t>(std::max(first_cell, 0.0));
         high[axis] = static_cast<std::uint64_t>(std::min(last_cell, last));
@@ -204,15 +205,14 @@ void PointGrid::gather(const Eigen::Vector3d& centre, double unit, float reach,
     };
     // How far the ball reaches past the cells of a row: what it leaves of them along x.
     const auto beyond = [&](int axis, std::uint64_t cell) {
-        const double below = static_cast<double>(cell) / inverse_cell_ - relative[axis];
-        const double above = -below - 1 / inverse_cell_;
-        const double outside = std::max({below, above, 0.0});
+        const double below = static_cast<double>(cell) - place[axis];
+        const double outside = std::max({below, -below - 1, 0.0});
         return outside * outside;
     };
     const auto slabs_end = slabs_.end() - 1;
     auto slab = first_from(slabs_.begin(), slabs_end, low[2], &Slab::z);
     for (; slab != slabs_end && slab->z <= high[2]; ++slab) {
-        const double left_by_z = kRoundingUp * ball * ball - beyond(2, slab->z);
+        const double left_by_z = ball * ball - beyond(2, slab->z);
         if (left_by_z < 0) continue;
         const auto rows_end = rows_.begin() + (slab + 1)->first_row;
         auto row = first_from(rows_.begin() + slab->first_row, rows_end, low[1], &Row::y);
@@ -220,8 +220,8 @@ void PointGrid::gather(const Eigen::Vector3d& centre, double unit, float reach,
             const double left = left_by_z - beyond(1, row->y);
             if (left < 0) continue;
             const double half = std::sqrt(left);
-            const double first_cell = (relative[0] - half) * inverse_cell_;
-            const double last_cell = (relative[0] + half) * inverse_cell_;
+            const double first_cell = place[0] - half;
+            const double last_cell = place[0] + half;
             if (last_cell < 0) continue;
             const auto first = static_cast<std::uint64_t>(std::max(first_cell, 0.0));
             const auto last = static_cast<std::uint64_t>(last_cell);

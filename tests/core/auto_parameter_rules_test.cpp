@@ -43,7 +43,7 @@ TEST(AutoParameterRules, LambdaGrowsWithTheNoiseInADisk) {
 
 TEST(AutoParameterRules, EachTaskHasItsIterations) {
     EXPECT_EQ(resolve(Task::Denoise, 0.1).analysis.iterations, 1);
-    EXPECT_EQ(resolve(Task::Resample, 0.1).analysis.iterations, 3);
+    EXPECT_EQ(resolve(Task::Resample, 0.1).analysis.iterations, 2);
     EXPECT_EQ(resolve(Task::Analyze, 0.1).analysis.iterations, 10);
 }
 

@@ -61,7 +61,7 @@ TEST(PinnedRules, OfVeryNoisyAndOfQuietClouds) {
 
 TEST(PinnedRules, OfResamplingAndOfAnalysis) {
     const auto cloud = resolve_parameters(Task::Resample, {}, measured(0.02), {});
-    EXPECT_EQ(cloud.analysis.iterations, 3);
+    EXPECT_EQ(cloud.analysis.iterations, 2);
     EXPECT_NEAR(cloud.resample.support, 1.5 * 0.05, 1e-12);
     EXPECT_EQ(cloud.resample.detail, 0.0);
     ASSERT_TRUE(cloud.resample.denoise);

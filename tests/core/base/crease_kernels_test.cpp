@@ -84,16 +84,40 @@ TEST_P(CreaseKernelsOf, MomentsAreThoseOfTheMembers) {
     }
 }
 
-TEST_P(CreaseKernelsOf, LineSumsAreThoseOfTheDistance) {
-    float out[5];
-    kernels::line_sums(0.6F, 0.8F, 0.05F, x.data(), y.data(), z.data(), off.data(), n, out);
-    double expected[5] = {};
-    for (std::size_t i = 0; i < n; ++i) {
-        const double d = std::abs(0.6 * double{x[i]} + 0.8 * double{y[i]} - 0.05);
-        const double factors[5] = {1, double{x[i]}, double{y[i]}, d, double{z[i]}};
-        for (int k = 0; k < 5; ++k) expected[k] += double{off[i]} * d * factors[k];
+TEST_P(CreaseKernelsOf, SubtractLeavesTheRootOfTheOffset) {
+    Floats left = z;
+    left.push_back(7.0F);
+    Floats squared(n);
+    kernels::subtract_crease(surface, x.data(), y.data(), n, left.data());
+    kernels::offsets_from_crease(surface, x.data(), y.data(), z.data(), n, squared.data());
+    for (std::size_t i = 0; i < n; ++i) ASSERT_NEAR(left[i] * left[i], squared[i], 1e-5);
+    EXPECT_EQ(left[n], 7.0F) << "wrote past the end";
+}
+
+TEST_P(CreaseKernelsOf, LineSumsAreThoseOfTheDistances) {
+    constexpr std::size_t kLines = 32;
+    Floats normal_x, normal_y, at;
+    for (std::size_t k = 0; k < kLines; ++k) {
+        normal_x.push_back(std::cos(0.2F * static_cast<float>(k)));
+        normal_y.push_back(std::sin(0.2F * static_cast<float>(k)));
+        at.push_back(0.02F * static_cast<float>(k) - 0.3F);
     }
-    for (int k = 0; k < 5; ++k) EXPECT_NEAR(out[k], expected[k], 1e-5 * (1 + double(n)));
+    Floats out(5 * kLines + 1, 7.0F);
+    kernels::line_sums({normal_x.data(), normal_y.data(), at.data(), kLines}, x.data(), y.data(),
+                       z.data(), off.data(), n, out.data());
+    for (std::size_t k = 0; k < kLines; ++k) {
+        double expected[5] = {};
+        for (std::size_t i = 0; i < n; ++i) {
+            const double d =
+                std::abs(double{normal_x[k]} * x[i] + double{normal_y[k]} * y[i] - double{at[k]});
+            const double factors[5] = {1, double{x[i]}, double{y[i]}, d, double{z[i]}};
+            for (int row = 0; row < 5; ++row) expected[row] += double{off[i]} * d * factors[row];
+        }
+        for (std::size_t row = 0; row < 5; ++row) {
+            EXPECT_NEAR(out[row * kLines + k], expected[row], 1e-5 * (1 + double(n)));
+        }
+    }
+    EXPECT_EQ(out.back(), 7.0F) << "wrote past the end";
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, CreaseKernelsOf, testing::Values(0, 1, 16, 17, 255, 256, 257, 700));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -237,6 +238,22 @@ TEST_P(KernelsOf, GatherBallKeepsThePointsInsideWithTheirNumbers) {
         ++expected;
     }
     EXPECT_EQ(kept, expected);
+}
+
+TEST_P(KernelsOf, BlocksAreThoseOfARaster) {
+    constexpr int kSide = 7;
+    const Floats x = random_floats(n, 17);
+    const Floats y = random_floats(n, 18);
+    std::vector<unsigned> out(n + 1, 77U);
+    kernels::block_numbers(x.data(), y.data(), 1.1F, kSide, n, out.data());
+    const auto along = [&](float value) {
+        const float share = (value / 1.1F + 1) / 2;
+        return std::clamp(static_cast<int>(std::floor(share * kSide)), 0, kSide - 1);
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+        EXPECT_EQ(out[i], static_cast<unsigned>(along(y[i]) * kSide + along(x[i])));
+    }
+    EXPECT_EQ(out[n], 77U) << "wrote past the end";
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, KernelsOf, testing::Values(0, 1, 3, 8, 15, 16, 17, 64, 193),
