@@ -18,6 +18,9 @@ inline constexpr int kLanes = 16;
 typedef float Floats __attribute__((vector_size(4 * kLanes)));
 typedef int Ints __attribute__((vector_size(4 * kLanes)));
 
+// Four values that lie together in memory, wherever they begin.
+typedef float FourFloats __attribute__((vector_size(16), aligned(4), may_alias));
+
 // As many bytes of doubles; for arrays that are laid out in lanes, wherever they begin.
 inline constexpr int kDoubleLanes = 8;
 typedef double Doubles __attribute__((vector_size(8 * kDoubleLanes), aligned(8), may_alias));

@@ -1,5 +1,6 @@
 #include "core/base/probing_kernels.h"
 
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -48,6 +49,31 @@ void nearest_to_nodes(const float* x, const float* y, std::size_t n, float first
     }
     std::memcpy(squared, &nearest, sizeof nearest);
     std::memcpy(point, &who, sizeof who);
+}
+
+LPF_MULTIVERSION
+void add_to_cells(const float* x, const float* y, const float* z, std::size_t n, float step,
+                  int side, int rows, float* cells) {
+    constexpr std::size_t kBlock = 64;
+    const auto half = static_cast<float>(side / 2);
+    const auto half_rows = static_cast<float>(rows / 2);
+    int cell[kBlock];
+    for (std::size_t begin = 0; begin < n; begin += kBlock) {
+        const std::size_t size = n - begin < kBlock ? n - begin : kBlock;
+#pragma omp simd
+        for (std::size_t i = 0; i < size; ++i) {
+            float column = std::floor(x[begin + i] / step + 0.5F);
+            float row = std::floor(y[begin + i] / step + 0.5F);
+            column = column < -half ? -half : column > half ? half : column;
+            row = row < -half_rows ? -half_rows : row > half_rows ? half_rows : row;
+            cell[i] = static_cast<int>(row + half_rows) * side + static_cast<int>(column + half);
+        }
+        for (std::size_t i = 0; i < size; ++i) {
+            const std::size_t k = begin + i;
+            const FourFloats point = {1.0F, x[k], y[k], z[k]};
+            reinterpret_cast<FourFloats*>(cells)[cell[i]] += point;
+        }
+    }
 }
 
 LPF_MULTIVERSION

@@ -15,9 +15,16 @@ void convolve(const float* in, float* out, std::size_t n, int stride, const floa
 void nearest_to_nodes(const float* x, const float* y, std::size_t n, float first_x, float step,
                       float row_y, float squared[16], int point[16]);
 
+/// Adds (1, x, y, z) of each point to the cell it lies in, of a raster of cells that are `step`
+/// wide, the middle one about 0; points beyond the raster count in its outermost cells.
+/// @param side number of cells along x, odd  @param rows the same along y, or 1: y makes no
+/// difference
+/// @param cells 4 values for each of side x rows cells
+void add_to_cells(const float* x, const float* y, const float* z, std::size_t n, float step,
+                  int side, int rows, float* cells);
+
 /// Which of the points is nearest to a place: of equally near ones the first, n if there is none.
 /// @param n a multiple of 16; points at infinity fill up
-std::size_t nearest_to_place(const float* x, const float* y, std::size_t n, float at_x,
-                             float at_y);
+std::size_t nearest_to_place(const float* x, const float* y, std::size_t n, float at_x, float at_y);
 
 }  // namespace lpf::kernels

@@ -32,22 +32,57 @@ inline Place place_in(const Image& image, float x, float y) {
             row - static_cast<float>(low)};
 }
 
+constexpr std::size_t kBlock = 64;
+
+struct PlacesOfBlock {
+    int at[kBlock];
+    float right[kBlock];
+    float up[kBlock];
+};
+
+LPF_MULTIVERSION
+void find_places(const Image& image, const float* x, const float* y, std::size_t size,
+                 PlacesOfBlock& places) {
+#pragma omp simd
+    for (std::size_t i = 0; i < size; ++i) {
+        const Place place = place_in(image, x[i], y[i]);
+        places.at[i] = place.at;
+        places.right[i] = place.right;
+        places.up[i] = place.up;
+    }
+}
+
 }  // namespace
 
 LPF_MULTIVERSION
-void read_image(const Image& image, int planes, const float* x, const float* y, std::size_t n,
-                float* const* out) {
+void read_image(const Image& image, const float* x, const float* y, std::size_t n, float* out) {
     const int columns = image.columns;
-    for (int plane = 0; plane < planes; ++plane) {
-        const float* const values = image.values + plane * columns * image.rows;
-        float* const to = out[plane];
+    const float* const values = image.values;
 #pragma omp simd
-        for (std::size_t i = 0; i < n; ++i) {
-            const auto [at, right, up] = place_in(image, x[i], y[i]);
-            const float lower = values[at] + right * (values[at + 1] - values[at]);
-            const float upper =
-                values[at + columns] + right * (values[at + columns + 1] - values[at + columns]);
-            to[i] = lower + up * (upper - lower);
+    for (std::size_t i = 0; i < n; ++i) {
+        const auto [at, right, up] = place_in(image, x[i], y[i]);
+        const float lower = values[at] + right * (values[at + 1] - values[at]);
+        const float upper =
+            values[at + columns] + right * (values[at + columns + 1] - values[at + columns]);
+        out[i] = lower + up * (upper - lower);
+    }
+}
+
+LPF_MULTIVERSION
+void read_three(const Image& image, const float* x, const float* y, std::size_t n,
+                float* const out[3]) {
+    PlacesOfBlock places;
+    for (std::size_t begin = 0; begin < n; begin += kBlock) {
+        const std::size_t size = n - begin < kBlock ? n - begin : kBlock;
+        find_places(image, x + begin, y + begin, size, places);
+        for (std::size_t i = 0; i < size; ++i) {
+            const FourFloats* const low =
+                reinterpret_cast<const FourFloats*>(image.values) + places.at[i];
+            const FourFloats* const high = low + image.columns;
+            const FourFloats lower = low[0] + places.right[i] * (low[1] - low[0]);
+            const FourFloats upper = high[0] + places.right[i] * (high[1] - high[0]);
+            const FourFloats value = lower + places.up[i] * (upper - lower);
+            for (int c = 0; c < 3; ++c) out[c][begin + i] = value[c];
         }
     }
 }
@@ -69,29 +104,23 @@ void add_cubic_change(const float c[4], float sign, const float* x, const float*
 }
 
 LPF_MULTIVERSION
-void add_to_image(const Image& image, const float* x, const float* y, const float* weight,
-                  std::size_t n, float* values) {
-    constexpr std::size_t kBlock = 64;
-    const int columns = image.columns;
-    int cell[kBlock];
-    float share[4][kBlock];
+void add_to_four(const Image& image, const float* x, const float* y, const float* const weight[4],
+                 std::size_t n, float* values) {
+    PlacesOfBlock places;
     for (std::size_t begin = 0; begin < n; begin += kBlock) {
         const std::size_t size = n - begin < kBlock ? n - begin : kBlock;
-#pragma omp simd
+        find_places(image, x + begin, y + begin, size, places);
         for (std::size_t i = 0; i < size; ++i) {
-            const auto [at, right, up] = place_in(image, x[begin + i], y[begin + i]);
-            cell[i] = at;
-            share[0][i] = weight[begin + i] * (1 - right) * (1 - up);
-            share[1][i] = weight[begin + i] * right * (1 - up);
-            share[2][i] = weight[begin + i] * (1 - right) * up;
-            share[3][i] = weight[begin + i] * right * up;
-        }
-        for (std::size_t i = 0; i < size; ++i) {
-            float* const at = values + cell[i];
-            at[0] += share[0][i];
-            at[1] += share[1][i];
-            at[columns] += share[2][i];
-            at[columns + 1] += share[3][i];
+            const std::size_t k = begin + i;
+            const float right = places.right[i];
+            const float up = places.up[i];
+            const FourFloats weights = {weight[0][k], weight[1][k], weight[2][k], weight[3][k]};
+            FourFloats* const low = reinterpret_cast<FourFloats*>(values) + places.at[i];
+            FourFloats* const high = low + image.columns;
+            low[0] += weights * (1 - right) * (1 - up);
+            low[1] += weights * right * (1 - up);
+            high[0] += weights * (1 - right) * up;
+            high[1] += weights * right * up;
         }
     }
 }
@@ -130,7 +159,6 @@ LPF_MULTIVERSION
 void add_votes(const unsigned* point, const float* weight, const float* mx, const float* my,
                const float* mz, std::size_t n, float scale, float least, float largest,
                std::int64_t* sums) {
-    constexpr std::size_t kBlock = 64;
     std::int64_t votes[4][kBlock];
     for (std::size_t begin = 0; begin < n; begin += kBlock) {
         const std::size_t size = n - begin < kBlock ? n - begin : kBlock;

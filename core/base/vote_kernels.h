@@ -7,8 +7,8 @@
 /// floats each, in units of the LPF's radius.
 namespace lpf::kernels {
 
-/// Planes of rows x columns values, one behind the other, read bilinearly: the value at (x, y) of a
-/// plane lies at column x scale_x + offset_x and row y scale_y + offset_y, at most at its rim.
+/// rows x columns places, at each of them one value or four together. (x, y) lies at column
+/// x scale_x + offset_x and row y scale_y + offset_y, at most at the rim.
 /// @pre at least two rows and columns
 struct Image {
     const float* values;
@@ -18,14 +18,19 @@ struct Image {
     float scale_y, offset_y;
 };
 
-/// out[c][i] = plane c of the image at (x[i], y[i]).
-void read_image(const Image& image, int planes, const float* x, const float* y, std::size_t n,
-                float* const* out);
+/// out[i] = the value at (x[i], y[i]), bilinearly, of an image of one value at each place.
+void read_image(const Image& image, const float* x, const float* y, std::size_t n, float* out);
 
-/// Adds weights to the four values about each place, as read_image shares them out.
-/// @param values the plane of the image
-void add_to_image(const Image& image, const float* x, const float* y, const float* weight,
-                  std::size_t n, float* values);
+/// The same for the first three values of an image of four.
+void read_three(const Image& image, const float* x, const float* y, std::size_t n,
+                float* const out[3]);
+
+/// Adds weights to the values at the four places about each point, as reading shares them out, of
+/// an image of four values.
+/// @param weight four arrays of n
+/// @param values of the image
+void add_to_four(const Image& image, const float* x, const float* y, const float* const weight[4],
+                 std::size_t n, float* values);
 
 /// out[i] += sign (p(x + dx, y + dy) - p(x, y)), where p = c . (1, x, y, xx, xy, yy).
 void add_parabola_change(const float c[6], float sign, const float* x, const float* y,

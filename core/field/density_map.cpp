@@ -21,7 +21,10 @@ void DensityMap::count(const Piece& piece, const TargetArea& flattened, float re
         piece.to_nearer_sheet(flattened.x[i], flattened.y[i], across, height);
         is_member[i] = height * height + across * across <= reach * reach ? 1.0F : 0.0F;
     }
-    raster_.add(flattened.x.data(), flattened.y.data(), is_member.data(), flattened.size, cells_);
+    const Eigen::ArrayXf ones = Eigen::ArrayXf::Ones(is_member.size());
+    DiskRaster::Values all{};
+    raster_.add(flattened.x.data(), flattened.y.data(), flattened.size,
+                {{is_member.data(), &cells_}, {ones.data(), &all}});
     float sum = 0;
     float squares = 0;
     for (const float count : cells_) {
@@ -30,15 +33,11 @@ void DensityMap::count(const Piece& piece, const TargetArea& flattened, float re
     }
     level_ = sum > 0 ? squares / sum : 0.0F;
     for (float& count : cells_) count /= std::max(level_, 1e-9F);
-    if (!piece.is_curve()) weigh_by_share(flattened);
+    if (!piece.is_curve()) weigh_by_share(all);
 }
 
 /// Where many points are none of its members, another part of the shape is near.
-void DensityMap::weigh_by_share(const TargetArea& flattened) {
-    const auto n = static_cast<Eigen::Index>(flattened.size);
-    const Eigen::ArrayXf ones = Eigen::ArrayXf::Ones(n);
-    DiskRaster::Values all{};
-    raster_.add(flattened.x.data(), flattened.y.data(), ones.data(), flattened.size, all);
+void DensityMap::weigh_by_share(const DiskRaster::Values& all) {
     for (std::size_t k = 0; k < cells_.size(); ++k) {
         cells_[k] *= level_ * cells_[k] / std::max(all[k], kFewestPoints);
     }

@@ -18,7 +18,7 @@ public:
     void read(const float* x, const float* y, std::size_t n, float* out) const;
 
 private:
-    void weigh_by_share(const TargetArea& flattened);
+    void weigh_by_share(const DiskRaster::Values& all);
 
     DiskRaster raster_;
     float level_ = 0.0F;  // mean density that a member sees; 0 = no members

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <initializer_list>
 
 #include "core/base/vote_kernels.h"
 
@@ -17,16 +19,33 @@ public:
 
     explicit DiskRaster(bool along_curve = false) : along_curve_(along_curve) {}
 
-    /// Shares the weights of n points out among the cells.
-    void add(const float* x, const float* y, const float* weight, std::size_t n,
-             Values& values) const {
-        kernels::add_to_image(image(values), x, y, weight, n, values.data());
+    /// Weights of points, and where they are summed.
+    struct Sum {
+        const float* weight;
+        Values* values;
+    };
+    static constexpr std::size_t kMostSums = 4;
+
+    /// Shares weights of n points out among the cells, for up to kMostSums sums at once.
+    void add(const float* x, const float* y, std::size_t n, std::initializer_list<Sum> sums) const {
+        const float* weight[kMostSums];
+        std::fill_n(weight, kMostSums, sums.begin()->weight);
+        std::ranges::transform(sums, weight, &Sum::weight);
+        std::array<float, kMostSums * kSide * kSide> together{};
+        kernels::add_to_four(image(*sums.begin()->values), x, y, weight, n, together.data());
+        std::size_t first = 0;
+        for (const Sum& sum : sums) {
+            for (std::size_t k = 0; k < sum.values->size(); ++k) {
+                (*sum.values)[k] += together[kMostSums * k + first];
+            }
+            ++first;
+        }
     }
 
     /// The values at n places.
     void read(const Values& values, const float* x, const float* y, std::size_t n,
               float* out) const {
-        kernels::read_image(image(values), 1, x, y, n, &out);
+        kernels::read_image(image(values), x, y, n, out);
     }
 
 private:

@@ -5,11 +5,16 @@
 #include "core/base/vote_kernels.h"
 
 namespace lpf {
+namespace {
+
+/// The displacement, and one that fills up.
+constexpr std::size_t kValuesOfPlace = 4;
+
+}  // namespace
 
 FieldImage::FieldImage(const Pattern& pattern) : pattern_(pattern) {
-    const std::size_t places =
-        pattern.grid_size() > 0 ? pattern.raster().size() : std::size_t(pattern.padded_size());
-    values_.resize(3 * places);
+    values_.resize(pattern.grid_size() > 0 ? kValuesOfPlace * pattern.raster().size()
+                                           : 3 * std::size_t(pattern.padded_size()));
 }
 
 void FieldImage::assign(const float* field) {
@@ -18,8 +23,9 @@ void FieldImage::assign(const float* field) {
         return;
     }
     float* to = values_.data();
-    for (int c = 0; c < 3; ++c) {
-        for (const int node : pattern_.raster()) *to++ = field[c * pattern_.padded_size() + node];
+    for (const int node : pattern_.raster()) {
+        for (int c = 0; c < 3; ++c) to[c] = field[c * pattern_.padded_size() + node];
+        to += kValuesOfPlace;
     }
 }
 
@@ -31,14 +37,14 @@ void FieldImage::read(const float* x, const float* y, std::size_t n, float* cons
     const int half = pattern_.grid_size() / 2;
     const float scale = 1.0F / pattern_.step();
     const auto offset = static_cast<float>(half);
-    kernels::read_image({.values = values_.data(),
+    kernels::read_three({.values = values_.data(),
                          .columns = 2 * half + 1,
                          .rows = 2 * half + 1,
                          .scale_x = scale,
                          .offset_x = offset,
                          .scale_y = scale,
                          .offset_y = offset},
-                        3, x, y, n, out);
+                        x, y, n, out);
 }
 
 void FieldImage::read_by_stencils(const float* x, const float* y, std::size_t n,

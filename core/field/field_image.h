@@ -22,7 +22,7 @@ private:
     void read_by_stencils(const float* x, const float* y, std::size_t n, float* const out[3]) const;
 
     const Pattern& pattern_;
-    std::vector<float> values_;  // of a grid: three planes; else the field itself
+    std::vector<float> values_;  // of a grid: four at each place; else the field itself
 };
 
 }  // namespace lpf

@@ -33,15 +33,6 @@ MemberOffsets::MemberOffsets(const Piece& piece, const TargetArea& flattened)
         z_[i] = is_member_[i] * z;
         if (piece.is_curve()) y_[i] = is_member_[i] * y;
     }
-    members_ = sums(is_member_);
-}
-
-/// @param values of all points, or none
-DiskRaster::Values MemberOffsets::sums(const Eigen::ArrayXf& values) const {
-    DiskRaster::Values sums{};
-    raster_.add(target_.x.data(), target_.y.data(), values.data(),
-                static_cast<std::size_t>(values.size()), sums);
-    return sums;
 }
 
 void MisfitMap::measure(const MemberOffsets& members, const float* field_y, const float* field_z) {
@@ -56,9 +47,19 @@ void MisfitMap::measure_means(const MemberOffsets& members, const Eigen::ArrayXf
                               const Eigen::ArrayXf& off_z) {
     const Piece& piece = members.piece_;
     raster_ = members.raster_;
-    const DiskRaster::Values& points = members.members_;
-    const DiskRaster::Values sum_y = members.sums(off_y);
-    const DiskRaster::Values sum_z = members.sums(off_z);
+    DiskRaster::Values points{};
+    DiskRaster::Values sum_y{};
+    DiskRaster::Values sum_z{};
+    const float* const x = members.target_.x.data();
+    const float* const y = members.target_.y.data();
+    if (piece.is_curve()) {
+        raster_.add(
+            x, y, members.target_.size,
+            {{members.is_member_.data(), &points}, {off_z.data(), &sum_z}, {off_y.data(), &sum_y}});
+    } else {
+        raster_.add(x, y, members.target_.size,
+                    {{members.is_member_.data(), &points}, {off_z.data(), &sum_z}});
+    }
     const float across = piece.steepness * piece.steepness;
     const float variance = piece.noise * piece.noise * (piece.is_curve() ? 2.0F : across);
     float sum = 0.0F;

@@ -15,14 +15,12 @@ public:
 
 private:
     friend class MisfitMap;
-    [[nodiscard]] DiskRaster::Values sums(const Eigen::ArrayXf& values) const;
 
     const Piece& piece_;
     const TargetArea& target_;
     DiskRaster raster_;
     Eigen::ArrayXf is_member_;  // ones and zeros
     Eigen::ArrayXf y_, z_;      // y on curves alone; 0 of what is no member
-    DiskRaster::Values members_;
 };
 
 /// How far the members of an LPF lie off its field on average, place by place, beyond what noise

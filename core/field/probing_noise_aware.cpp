@@ -59,7 +59,7 @@ private:
 
     void probe_surface(ProbeScratch& scratch, float* v) const {
         const auto cells = static_cast<std::size_t>(side_ * side_);
-        bin_points(scratch.target, scratch.raster, cells, true);
+        add_to_raster(scratch, side_);
         // Nodes keep `margin_` cells to every side: what wraps around at row ends is never read.
         scratch.raster2.assign(kChannels * cells, 0.0F);
         const int row = kChannels * side_;
@@ -74,7 +74,7 @@ private:
 
     void probe_curve(ProbeScratch& scratch, float* v) const {
         const auto cells = static_cast<std::size_t>(side_);
-        bin_points(scratch.target, scratch.raster, cells, false);
+        add_to_raster(scratch, 1);
         scratch.raster2.assign(kChannels * cells, 0.0F);
         const int begin = margin_ * kChannels;
         kernels::convolve(scratch.raster.data() + begin, scratch.raster2.data() + begin,
@@ -84,17 +84,11 @@ private:
         read_nodes(scratch, column_, true, v);
     }
 
-    void bin_points(const TargetArea& target, std::vector<float>& raster, std::size_t cells,
-                    bool plane) const {
-        raster.assign(kChannels * cells, 0.0F);
-        for (std::size_t i = 0; i < target.size; ++i) {
-            const int row = plane ? cell_of(target.y[i]) * side_ : 0;
-            float* cell = raster.data() + kChannels * (row + cell_of(target.x[i]));
-            cell[0] += 1.0F;
-            cell[1] += target.x[i];
-            cell[2] += target.y[i];
-            cell[3] += target.z[i];
-        }
+    void add_to_raster(ProbeScratch& scratch, int rows) const {
+        const TargetArea& target = scratch.target;
+        scratch.raster.assign(static_cast<std::size_t>(kChannels * side_ * rows), 0.0F);
+        kernels::add_to_cells(target.x.data(), target.y.data(), target.z.data(), target.size, cell_,
+                              side_, rows, scratch.raster.data());
     }
 
     /// From the blurred raster to displacements. On a curve the node moves within the

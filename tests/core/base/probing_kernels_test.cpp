@@ -84,9 +84,8 @@ TEST(ProbingKernels, NearestToPlaceIsTheFirstOfTheNearest) {
             for (std::size_t i = n; i-- > 0;) {
                 if (squared(i) <= squared(first)) first = i;
             }
-            EXPECT_EQ(
-                kernels::nearest_to_place(x.data(), y.data(), n, all_x[place], all_y[place]),
-                first);
+            EXPECT_EQ(kernels::nearest_to_place(x.data(), y.data(), n, all_x[place], all_y[place]),
+                      first);
         }
     }
 }
@@ -114,6 +113,34 @@ TEST_P(ProbingKernelsOf, ConvolveAgreesWithItsDefinition) {
         ASSERT_NEAR(out[i], expected, 1e-4);
     }
     EXPECT_EQ(out[n], 7.0F) << "wrote past the end";
+}
+
+TEST_P(ProbingKernelsOf, PointsAreAddedToTheCellsTheyLieIn) {
+    constexpr float kStep = 0.25F;
+    constexpr int kSide = 9;
+    const Floats x = random_floats(n, 21);
+    const Floats y = random_floats(n, 22);
+    const Floats z = random_floats(n, 23);
+    for (const int rows : {kSide, 1}) {
+        const auto size = static_cast<std::size_t>(4 * kSide * rows);
+        Floats expected(size, 0.0F);
+        Floats cells(size + 1, 0.0F);
+        cells.back() = 7.0F;
+        kernels::add_to_cells(x.data(), y.data(), z.data(), n, kStep, kSide, rows, cells.data());
+        const auto cell_of = [&](float value, int count) {
+            return std::clamp(static_cast<int>(std::floor(value / kStep + 0.5F)) + count / 2, 0,
+                              count - 1);
+        };
+        for (std::size_t i = 0; i < n; ++i) {
+            float* to = expected.data() + 4 * (cell_of(y[i], rows) * kSide + cell_of(x[i], kSide));
+            to[0] += 1;
+            to[1] += x[i];
+            to[2] += y[i];
+            to[3] += z[i];
+        }
+        for (std::size_t k = 0; k < size; ++k) ASSERT_NEAR(cells[k], expected[k], 1e-5);
+        EXPECT_EQ(cells.back(), 7.0F) << "wrote past the end";
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, ProbingKernelsOf,

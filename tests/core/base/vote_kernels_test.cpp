@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -47,49 +48,66 @@ constexpr kernels::Image kImage{.values = nullptr,
                                 .scale_y = 1.5F,
                                 .offset_y = 1.5F};
 
+/// What lies at (x, y) of an image, of which `values` is the first value and the next is `stride`
+/// on.
+double value_at(float x, float y, const float* values, int stride) {
+    const double column = std::clamp(2.0 * double{x} + 2, 0.0, kColumns - 1.0);
+    const double row = std::clamp(1.5 * double{y} + 1.5, 0.0, kRows - 1.0);
+    const int left = std::min(static_cast<int>(column), kColumns - 2);
+    const int low = std::min(static_cast<int>(row), kRows - 2);
+    const auto at = [&](int k, int r) { return double{values[stride * (r * kColumns + k)]}; };
+    const double lower = at(left, low) + (column - left) * (at(left + 1, low) - at(left, low));
+    const double upper =
+        at(left, low + 1) + (column - left) * (at(left + 1, low + 1) - at(left, low + 1));
+    return lower + (row - low) * (upper - lower);
+}
+
 TEST_P(VoteKernelsOf, ImagesAreReadBilinearlyAndHeldAtTheRim) {
-    const Floats values = random_floats(2 * kColumns * kRows, 3);
+    const Floats values = random_floats(4 * kColumns * kRows, 3);
     kernels::Image image = kImage;
     image.values = values.data();
-    Floats out[2] = {Floats(n), Floats(n)};
-    float* const planes[2] = {out[0].data(), out[1].data()};
-    kernels::read_image(image, 2, x.data(), y.data(), n, planes);
+    Floats one(n + 1, 7.0F);
+    kernels::read_image(image, x.data(), y.data(), n, one.data());
+    Floats three[3] = {Floats(n + 1, 7.0F), Floats(n + 1, 7.0F), Floats(n + 1, 7.0F)};
+    float* const out[3] = {three[0].data(), three[1].data(), three[2].data()};
+    kernels::read_three(image, x.data(), y.data(), n, out);
     for (std::size_t i = 0; i < n; ++i) {
-        const double column = std::clamp(2.0 * double{x[i]} + 2, 0.0, kColumns - 1.0);
-        const double row = std::clamp(1.5 * double{y[i]} + 1.5, 0.0, kRows - 1.0);
-        const int left = std::min(static_cast<int>(column), kColumns - 2);
-        const int low = std::min(static_cast<int>(row), kRows - 2);
-        for (int c = 0; c < 2; ++c) {
-            const auto at = [&](int k, int r) {
-                return double{values[static_cast<std::size_t>((c * kRows + r) * kColumns + k)]};
-            };
-            const double lower =
-                at(left, low) + (column - left) * (at(left + 1, low) - at(left, low));
-            const double upper =
-                at(left, low + 1) + (column - left) * (at(left + 1, low + 1) - at(left, low + 1));
-            ASSERT_NEAR(out[c][i], lower + (row - low) * (upper - lower), 1e-5);
+        ASSERT_NEAR(one[i], value_at(x[i], y[i], values.data(), 1), 1e-5);
+        for (int c = 0; c < 3; ++c) {
+            ASSERT_NEAR(three[c][i], value_at(x[i], y[i], values.data() + c, 4), 1e-5);
         }
+    }
+    for (const Floats* values_out : {&one, &three[0], &three[1], &three[2]}) {
+        EXPECT_EQ((*values_out)[n], 7.0F) << "wrote past the end";
     }
 }
 
 TEST_P(VoteKernelsOf, WhatIsAddedToAnImageIsSharedOutWhole) {
-    const Floats weight = random_floats(n, 4);
-    Floats values(kColumns * kRows, 0.0F);
-    kernels::add_to_image(kImage, x.data(), y.data(), weight.data(), n, values.data());
-    double added = 0;
-    double kept = 0;
-    for (const float w : weight) added += double{w};
-    for (const float v : values) kept += double{v};
-    EXPECT_NEAR(kept, added, 1e-4 * (1 + static_cast<double>(n)));
+    Floats weight[4];
+    for (std::size_t c = 0; c < 4; ++c) weight[c] = random_floats(n, 4 + c);
+    const float* const weights[4] = {weight[0].data(), weight[1].data(), weight[2].data(),
+                                     weight[3].data()};
+    Floats values(4 * kColumns * kRows, 0.0F);
+    kernels::add_to_four(kImage, x.data(), y.data(), weights, n, values.data());
+    for (std::size_t c = 0; c < 4; ++c) {
+        double added = 0;
+        double kept = 0;
+        for (const float w : weight[c]) added += double{w};
+        for (std::size_t k = c; k < values.size(); k += 4) kept += double{values[k]};
+        EXPECT_NEAR(kept, added, 1e-4 * (1 + static_cast<double>(n)));
+    }
 }
 
 TEST(VoteKernels, ANodeOfTheImageTakesAllThatFallsOnIt) {
-    Floats values(kColumns * kRows, 0.0F);
+    Floats values(4 * kColumns * kRows, 0.0F);
     const float x = 0.5F;              // column 3
     const float y = -1.0F + 4.0F / 3;  // row 2
-    const float weight = 7;
-    kernels::add_to_image(kImage, &x, &y, &weight, 1, values.data());
-    EXPECT_NEAR(values[2 * kColumns + 3], 7, 1e-5);
+    const float weight[4] = {7, 8, 9, 10};
+    const float* const weights[4] = {&weight[0], &weight[1], &weight[2], &weight[3]};
+    kernels::add_to_four(kImage, &x, &y, weights, 1, values.data());
+    for (std::size_t c = 0; c < 4; ++c) {
+        EXPECT_NEAR(values[4 * (2 * kColumns + 3) + c], weight[c], 1e-5);
+    }
 }
 
 TEST_P(VoteKernelsOf, ChangesOfPolynomialsAreDifferencesOfTheirValues) {
