@@ -8,6 +8,12 @@
 namespace lpf::kernels {
 namespace {
 
+inline const FloatsAt& lanes_at(const float* from) {
+    return *reinterpret_cast<const FloatsAt*>(from);
+}
+
+inline FloatsAt& lanes_at(float* from) { return *reinterpret_cast<FloatsAt*>(from); }
+
 inline float sum_of_lanes(const Floats& values) {
     float lanes[kLanes];
     std::memcpy(lanes, &values, sizeof lanes);
@@ -47,12 +53,11 @@ void multiply_rows(const float* rows, std::size_t row_count, std::size_t n, cons
         for (std::size_t k = 0; k < kRows; ++k) row[k] = rows + (first + k % count) * n;
         Floats s0{}, s1{}, s2{}, s3{}, s4{}, s5{}, s6{}, s7{};
         for (std::size_t i = 0; i < whole; i += kLanes) {
-            Floats with;
-            Floats from[kRows];
-            std::memcpy(&with, v + i, sizeof with);
-            for (std::size_t k = 0; k < kRows; ++k) std::memcpy(&from[k], row[k] + i, sizeof with);
-            s0 += from[0] * with, s1 += from[1] * with, s2 += from[2] * with, s3 += from[3] * with;
-            s4 += from[4] * with, s5 += from[5] * with, s6 += from[6] * with, s7 += from[7] * with;
+            const FloatsAt& with = lanes_at(v + i);
+            s0 += lanes_at(row[0] + i) * with, s1 += lanes_at(row[1] + i) * with;
+            s2 += lanes_at(row[2] + i) * with, s3 += lanes_at(row[3] + i) * with;
+            s4 += lanes_at(row[4] + i) * with, s5 += lanes_at(row[5] + i) * with;
+            s6 += lanes_at(row[6] + i) * with, s7 += lanes_at(row[7] + i) * with;
         }
         const Floats sums[kRows] = {s0, s1, s2, s3, s4, s5, s6, s7};
         for (std::size_t k = 0; k < count; ++k) {
@@ -77,12 +82,12 @@ void multiply_rows_with_all(const float* rows, std::size_t row_count, std::size_
             const float* with[2] = {v + j * n, v + (j + v_left - 1) * n};
             Floats s0{}, s1{}, s2{}, s3{}, t0{}, t1{}, t2{}, t3{};
             for (std::size_t i = 0; i < whole; i += kLanes) {
-                Floats a, b, from[4];
-                std::memcpy(&a, with[0] + i, sizeof a);
-                std::memcpy(&b, with[1] + i, sizeof b);
-                for (int k = 0; k < 4; ++k) std::memcpy(&from[k], row[k] + i, sizeof a);
-                s0 += from[0] * a, s1 += from[1] * a, s2 += from[2] * a, s3 += from[3] * a;
-                t0 += from[0] * b, t1 += from[1] * b, t2 += from[2] * b, t3 += from[3] * b;
+                const FloatsAt& a = lanes_at(with[0] + i);
+                const FloatsAt& b = lanes_at(with[1] + i);
+                s0 += lanes_at(row[0] + i) * a, s1 += lanes_at(row[1] + i) * a;
+                s2 += lanes_at(row[2] + i) * a, s3 += lanes_at(row[3] + i) * a;
+                t0 += lanes_at(row[0] + i) * b, t1 += lanes_at(row[1] + i) * b;
+                t2 += lanes_at(row[2] + i) * b, t3 += lanes_at(row[3] + i) * b;
             }
             const Floats sums[2][4] = {{s0, s1, s2, s3}, {t0, t1, t2, t3}};
             for (std::size_t l = 0; l < v_left; ++l) {
@@ -91,6 +96,39 @@ void multiply_rows_with_all(const float* rows, std::size_t row_count, std::size_
                     for (std::size_t i = whole; i < n; ++i) sum += row[k][i] * with[l][i];
                     out[(j + l) * row_count + first + k] = sum;
                 }
+            }
+        }
+    }
+}
+
+LPF_MULTIVERSION
+void multiply(const float* left, std::size_t count, std::size_t inner, const float* right,
+              std::size_t n, float* out) {
+    // Eight rows at a time share the loads of the columns, and are sums enough to keep the adders
+    // busy.
+    constexpr std::size_t kRows = 8;
+    const std::size_t whole = n - n % kLanes;
+    for (std::size_t first = 0; first < count; first += kRows) {
+        const std::size_t rows = count - first < kRows ? count - first : kRows;
+        const float* a[kRows];
+        for (std::size_t k = 0; k < kRows; ++k) a[k] = left + (first + k % rows) * inner;
+        float* const to = out + first * n;
+        for (std::size_t j = 0; j < whole; j += kLanes) {
+            Floats s0{}, s1{}, s2{}, s3{}, s4{}, s5{}, s6{}, s7{};
+            for (std::size_t i = 0; i < inner; ++i) {
+                const FloatsAt& with = lanes_at(right + i * n + j);
+                s0 += a[0][i] * with, s1 += a[1][i] * with, s2 += a[2][i] * with;
+                s3 += a[3][i] * with, s4 += a[4][i] * with, s5 += a[5][i] * with;
+                s6 += a[6][i] * with, s7 += a[7][i] * with;
+            }
+            const Floats sums[kRows] = {s0, s1, s2, s3, s4, s5, s6, s7};
+            for (std::size_t k = 0; k < rows; ++k) lanes_at(to + k * n + j) = sums[k];
+        }
+        for (std::size_t k = 0; k < rows; ++k) {
+            for (std::size_t j = whole; j < n; ++j) {
+                float sum = 0.0F;
+                for (std::size_t i = 0; i < inner; ++i) sum += a[k][i] * right[i * n + j];
+                to[k * n + j] = sum;
             }
         }
     }
@@ -112,24 +150,21 @@ void combine_rows(const float* rows, std::size_t stride, std::size_t n, const un
     for (; begin + kBlock <= n; begin += kBlock) {
         Floats s0{}, s1{}, s2{}, s3{};
         for (std::size_t k = 0; k < count; ++k) {
-            Floats from[kVectors];
-            std::memcpy(from, rows + row[k] * stride + begin, sizeof from);
+            const FloatsAt* const from = &lanes_at(rows + row[k] * stride + begin);
             s0 += coefficient[k] * from[0];
             s1 += coefficient[k] * from[1];
             s2 += coefficient[k] * from[2];
             s3 += coefficient[k] * from[3];
         }
-        const Floats sums[kVectors] = {s0, s1, s2, s3};
-        std::memcpy(out + begin, sums, sizeof sums);
+        FloatsAt* const to = &lanes_at(out + begin);
+        to[0] = s0, to[1] = s1, to[2] = s2, to[3] = s3;
     }
     for (; begin + kLanes <= n; begin += kLanes) {
         Floats sum{};
         for (std::size_t k = 0; k < count; ++k) {
-            Floats from;
-            std::memcpy(&from, rows + row[k] * stride + begin, sizeof from);
-            sum += coefficient[k] * from;
+            sum += coefficient[k] * lanes_at(rows + row[k] * stride + begin);
         }
-        std::memcpy(out + begin, &sum, sizeof sum);
+        lanes_at(out + begin) = sum;
     }
     for (; begin < n; ++begin) {
         float sum = 0;

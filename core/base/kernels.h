@@ -20,6 +20,10 @@ void multiply_rows(const float* rows, std::size_t row_count, std::size_t n, cons
 void multiply_rows_with_all(const float* rows, std::size_t row_count, std::size_t n, const float* v,
                             std::size_t v_count, float* out);
 
+/// out = left right, for count x inner and inner x n values, row-major.
+void multiply(const float* left, std::size_t count, std::size_t inner, const float* right,
+              std::size_t n, float* out);
+
 /// out[i] += scale * in[i].
 void add_scaled(float scale, const float* in, float* out, std::size_t n);
 

@@ -18,6 +18,10 @@ inline constexpr int kLanes = 16;
 typedef float Floats __attribute__((vector_size(4 * kLanes)));
 typedef int Ints __attribute__((vector_size(4 * kLanes)));
 
+// The same lanes in arrays, wherever they begin. Copies of them in arrays of vectors would be
+// stored, and never read.
+typedef float FloatsAt __attribute__((vector_size(4 * kLanes), aligned(4), may_alias));
+
 // Four values that lie together in memory, wherever they begin.
 typedef float FourFloats __attribute__((vector_size(16), aligned(4), may_alias));
 

@@ -189,9 +189,11 @@ private:
         shift_to_shape(seed.frame, target);
         seed.is_needless = is_cared_for(seed.frame.centre, target);
         if (seed.is_needless) return seed;
-        gather(seed.frame, target);
-        if (trial.smaller > 0 && is_enough(trial, target)) return seed;
-        seed.piece = grow(trial.radius, target, grower);
+        if (params_.noise > 0) {  // else there are no pieces
+            gather(seed.frame, target);
+            if (trial.smaller > 0 && is_enough(trial, target)) return seed;
+            seed.piece = grow(trial.radius, target, grower);
+        }
         if (trial.smaller > 0) {
             seed.fits = suits(seed, trial, target, grower);
         } else {
@@ -243,7 +245,6 @@ private:
     /// The piece of what is gathered.
     [[nodiscard]] Piece grow(double radius, const TargetArea& target, PieceGrower& grower,
                              float enough = 0.0F) const {
-        if (params_.noise <= 0) return {};
         return grower.grow(target, static_cast<float>(params_.noise / radius),
                            static_cast<float>(params_.target_radius), enough);
     }

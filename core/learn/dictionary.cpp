@@ -49,19 +49,8 @@ void Dictionary::decode(std::span<const float> code, std::span<float> out) const
 }
 
 void Dictionary::decode_all(std::span<const float> codes, std::span<float> out) const {
-    // So many columns of all atoms stay in the first cache while all codes pass by.
-    constexpr std::size_t kColumns = 192;
     const auto d = static_cast<std::size_t>(atoms_);
-    std::vector<NonZero> used;
-    for (std::size_t i = 0; i < codes.size(); i += d) used.emplace_back(codes.subspan(i, d));
-    for (std::size_t begin = 0; begin < stride_; begin += kColumns) {
-        const std::size_t columns = std::min(kColumns, stride_ - begin);
-        for (std::size_t i = 0; i < used.size(); ++i) {
-            kernels::combine_rows(data() + begin, stride_, columns, used[i].atom.data(),
-                                  used[i].coefficient.data(), used[i].count,
-                                  out.data() + i * stride_ + begin);
-        }
-    }
+    kernels::multiply(codes.data(), codes.size() / d, d, data(), stride_, out.data());
 }
 
 std::vector<float> Dictionary::gram() const {

@@ -91,6 +91,25 @@ TEST_P(KernelsOf, CombineRowsAddsUpSomeRows) {
     }
 }
 
+TEST_P(KernelsOf, MultiplyIsTheProductOfTwoMatrices) {
+    for (const std::size_t count : {1U, 5U, 8U, 11U}) {
+        for (const std::size_t inner : {0U, 1U, 13U}) {
+            const Floats left = random_floats(count * inner, 25);
+            const Floats right = random_floats(inner * n, 26);
+            Floats out(count * n + 1, 77.0F);
+            kernels::multiply(left.data(), count, inner, right.data(), n, out.data());
+            for (std::size_t i = 0; i < count * n; ++i) {
+                double expected = 0;
+                for (std::size_t k = 0; k < inner; ++k) {
+                    expected += double{left[i / n * inner + k]} * double{right[k * n + i % n]};
+                }
+                ASSERT_NEAR(out[i], expected, 1e-5);
+            }
+            EXPECT_EQ(out.back(), 77.0F) << "wrote past the end";
+        }
+    }
+}
+
 TEST_P(KernelsOf, AddScaledAddsAndStopsAtTheEnd) {
     const Floats in = random_floats(n + 1, 5);
     Floats out = random_floats(n + 1, 6);
