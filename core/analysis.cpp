@@ -66,12 +66,20 @@ public:
 
     /// Steps 1 to 3 for every LPF in one pass: probe it where it now is (closing the loop of the
     /// iteration before), code it, and move it to where it fits its code best.
-    void code_and_pose(const Execution& execution) { pass("analyze", execution, true); }
+    void code_and_pose(const Execution& execution) {
+        pass("analyze", execution, {.opens = true, .closes = false});
+    }
 
     /// Step 3 of the last iteration, and the codes that belong to the last poses.
     void close(const Execution& execution) {
         previous_ = dictionary_;
-        pass("encode", execution, false);
+        pass("encode", execution, {.opens = false, .closes = true});
+    }
+
+    /// Both for LPFs that stay where they are: the last iteration in one pass.
+    void code_and_close(const Execution& execution) {
+        pass("analyze", execution, {.opens = true, .closes = true});
+        energy_.back().probing = energy_.back().pose;
     }
 
     AnalysisResult result() && {
@@ -84,7 +92,12 @@ public:
     }
 
 private:
-    void pass(std::string_view phase, const Execution& execution, bool move) {
+    struct Part {
+        bool opens;   ///< an iteration
+        bool closes;  ///< the loop: LPFs stay, and their codes are the last ones
+    };
+
+    void pass(std::string_view phase, const Execution& execution, Part part) {
         const std::vector<float> gram = dictionary_.gram();
         std::vector<FieldEnergy> chunk_energy(fields_.chunks());
         residuals_.assign(fields_.size(), 0.0F);
@@ -95,18 +108,31 @@ private:
                 for (std::size_t i = 0; i < block.count; ++i) {
                     energy.before += field_energy(block, i);
                 }
-                encode(gram, block, !move && params_.debias);
+                encode(gram, block);
                 decode(dictionary_, block);
                 for (std::size_t i = 0; i < block.count; ++i) {
-                    residuals_[block.number[i]] = residual(block, i);
                     const double learned = field_energy(block, i);
                     energy.learning += learned;
-                    const bool stays = !move || fields_.pose_is_fixed(block.number[i]);
+                    const bool stays = part.closes || fields_.pose_is_fixed(block.number[i]);
                     if (!stays) pose(block, i);
                     energy.pose += stays ? learned : field_energy(block, i);
                 }
+                if (part.closes) finish(gram, block);
             });
-        record(chunk_energy, move);
+        record(chunk_energy, part.opens);
+    }
+
+    /// The codes as they are to be, and what they leave of the fields.
+    void finish(const std::vector<float>& gram, FieldSet::Block& block) {
+        if (params_.debias) {
+            for (std::size_t i = 0; i < block.count; ++i) {
+                debias({gram, correlations(block, i), 0.0F}, codes_[block.number[i]]);
+            }
+            decode(dictionary_, block);
+        }
+        for (std::size_t i = 0; i < block.count; ++i) {
+            residuals_[block.number[i]] = residual(block, i);
+        }
     }
 
     /// D alpha of each.
@@ -119,21 +145,21 @@ private:
         dictionary.decode_all(std::span(block.codes).first(block.count * d), block.decoded);
     }
 
-    void encode(const std::vector<float>& gram, FieldSet::Block& block, bool debiased) {
-        const std::size_t d = codes_atoms();
+    void encode(const std::vector<float>& gram, FieldSet::Block& block) {
         Coder::correlate(dictionary_,
                          std::span(block.fields).first(block.count * dictionary_.stride()),
                          block.correlations);
         std::array<LassoTask, kFieldsOfBlock> tasks;
         for (std::size_t i = 0; i < block.count; ++i) {
             const std::size_t j = block.number[i];
-            tasks[i] = {std::span(block.correlations).subspan(i * d, d),
-                        coder_.lambda * fields_.lambda_share(j), codes_[j]};
+            tasks[i] = {correlations(block, i), coder_.lambda * fields_.lambda_share(j), codes_[j]};
         }
         coder_.solve(gram, std::span(tasks).first(block.count));
-        for (std::size_t i = 0; debiased && i < block.count; ++i) {
-            debias({gram, tasks[i].correlations, 0.0F}, tasks[i].code);
-        }
+    }
+
+    [[nodiscard]] std::span<const float> correlations(const FieldSet::Block& block,
+                                                      std::size_t i) const {
+        return std::span(block.correlations).subspan(i * codes_atoms(), codes_atoms());
     }
 
     /// Moves LPF and field to where they fit the code best.
@@ -230,8 +256,14 @@ void validate(const AnalysisParams& p) {
 AnalysisResult analyze(FieldSet& fields, const AnalysisParams& params, const Execution& execution) {
     JointLoop loop(fields, params);
     const double passes = params.iterations + 1;
+    const bool stay = fields.poses_are_fixed();
     for (int i = 0; i < params.iterations; ++i) {
         loop.learn(part_of(execution, i / passes, (i + 0.3) / passes));
+        const bool last = i + 1 == params.iterations;
+        if (last && stay) {
+            loop.code_and_close(part_of(execution, (i + 0.3) / passes, 1.0));
+            return std::move(loop).result();
+        }
         loop.code_and_pose(part_of(execution, (i + 0.3) / passes, (i + 1) / passes));
     }
     loop.close(part_of(execution, params.iterations / passes, 1.0));

@@ -18,6 +18,12 @@ constexpr std::size_t kFieldsPerChunk = 32;
 constexpr double kCellPerRadius = 1.0;
 constexpr double kFineCellPerRadius = 0.55;
 
+/// A chunk for each turn: not one next to that of the turn before. Threads that take turns would
+/// otherwise write to the same points.
+std::size_t far_from_last(std::size_t turn, std::size_t chunks) {
+    return turn / 2 + (turn % 2) * ((chunks + 1) / 2);
+}
+
 /// Samples of a mesh lie this close, so that no triangle of a target area is missed.
 constexpr double kMeshSampleSpacing = 0.1;
 
@@ -123,6 +129,13 @@ FieldSet::Worker FieldSet::make_worker(int atoms) const {
     return worker;
 }
 
+bool FieldSet::poses_are_fixed() const {
+    for (std::size_t j = 0; j < size(); ++j) {
+        if (dimensions[j] != kTooFewPoints && !pose_is_fixed(j)) return false;
+    }
+    return true;
+}
+
 std::size_t FieldSet::chunks() const { return chunk_count(size(), kFieldsPerChunk); }
 
 void FieldSet::gather(std::size_t j, TargetArea& target) const {
@@ -197,7 +210,10 @@ void FieldSet::for_each_ball(std::string_view phase, const Execution& execution,
 void FieldSet::for_each_gathered(std::string_view phase, const Execution& execution,
                                  const Body& body, Gather gather_points) const {
     parallel_for(execution, phase, "fields", size(), kFieldsPerChunk,
-                 [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                 [&](std::size_t, std::size_t, std::size_t turn) {
+                     const std::size_t chunk = far_from_last(turn, chunks());
+                     const std::size_t begin = chunk * kFieldsPerChunk;
+                     const std::size_t end = std::min(begin + kFieldsPerChunk, size());
                      Worker worker = make_worker(0);
                      for (std::size_t j = begin; j < end; ++j) {
                          (this->*gather_points)(j, worker.probe.target);

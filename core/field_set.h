@@ -104,6 +104,8 @@ public:
 
     /// LPFs lie on the piece that they are about: their pose is that of the piece.
     [[nodiscard]] bool pose_is_fixed(std::size_t j) const { return pieces[j].exists(); }
+    /// Whether that holds for all that have points enough for a pose.
+    [[nodiscard]] bool poses_are_fixed() const;
 
     [[nodiscard]] std::size_t size() const { return frames.size(); }
     [[nodiscard]] std::size_t chunks() const;

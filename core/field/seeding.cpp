@@ -194,11 +194,8 @@ private:
             if (trial.smaller > 0 && is_enough(trial, target)) return seed;
             seed.piece = grow(trial.radius, target, grower);
         }
-        if (trial.smaller > 0) {
-            seed.fits = suits(seed, trial, target, grower);
-        } else {
-            seed.fits = trial.last_chance || explains_its_points(seed.piece);
-        }
+        seed.fits = trial.smaller > 0 ? suits(seed, trial, target, grower)
+                                      : trial.last_chance || explains_its_points(seed.piece);
         return seed;
     }
 
@@ -210,8 +207,8 @@ private:
         const auto reach = static_cast<float>(trial.smaller * params_.target_radius);
         std::size_t within = 0;
         for (std::size_t i = 0; i < target.size; ++i) {
-            const float x = target.x[i], y = target.y[i], z = target.z[i];
-            within += static_cast<std::size_t>(x * x + y * y + z * z <= reach * reach);
+            const Eigen::Vector3f place(target.x[i], target.y[i], target.z[i]);
+            within += static_cast<std::size_t>(place.squaredNorm() <= reach * reach);
         }
         return within > kEnoughPoints;
     }
