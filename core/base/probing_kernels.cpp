@@ -55,8 +55,10 @@ LPF_MULTIVERSION
 void add_to_cells(const float* x, const float* y, const float* z, std::size_t n, float step,
                   int side, int rows, float* cells) {
     constexpr std::size_t kBlock = 64;
-    const auto half = static_cast<float>(side / 2);
-    const auto half_rows = static_cast<float>(rows / 2);
+    const int to_side = side / 2;
+    const int to_rows = rows / 2;
+    const auto half = static_cast<float>(to_side);
+    const auto half_rows = static_cast<float>(to_rows);
     int cell[kBlock];
     for (std::size_t begin = 0; begin < n; begin += kBlock) {
         const std::size_t size = n - begin < kBlock ? n - begin : kBlock;
