@@ -16,8 +16,9 @@ constexpr std::size_t kFieldsPerChunk = 32;
 
 /// The places of one LPF lie this close at least [tau_p]. With all the LPFs that overlap, the
 /// packing is nearly saturated then.
-constexpr double kCandidateStep = 0.9;
-constexpr double kCandidateStepOfSearch = 1.0;
+constexpr double kStep = 0.9;
+constexpr double kStepOfSearch = 1.0;
+constexpr double kStepOfExactSearch = 1.3;
 constexpr int kMostSubdivisions = 16;
 constexpr int kMostAround = 64;  // a tube
 
@@ -63,20 +64,25 @@ Places places_of_nodes(const Pattern& pattern, double apart) {
     return places;
 }
 
-/// Places of a lattice `apart` [radius], each shaken by up to half of that, from the centre
-/// outwards: as many as the points that are searched for need, and no number that jumps with their
-/// spacing, as that of nodes would.
-Places shaken_places(const Pattern& pattern, double apart) {
-    const double finest = static_cast<double>(pattern.step()) / kMostSubdivisions;
-    const double step = std::max(apart, finest);
-    Places places = lattice(static_cast<float>(step));
+/// Each is shaken by up to half of `apart` [radius], so that the number of points does not jump
+/// where the spacing that is searched for passes a step of the lattice.
+void shake(Places& places, double apart) {
     Random random(places.size(), 0x5ba4e);
     for (Eigen::Vector2f& place : places) {
         Eigen::Vector2f shaken = place;
-        for (float& x : shaken) x += static_cast<float>(step * random.uniform(-0.5, 0.5));
+        for (float& x : shaken) x += static_cast<float>(apart * random.uniform(-0.5, 0.5));
         if (shaken.norm() < 1) place = shaken;
     }
     order_from_centre(places);
+}
+
+/// Places for points that are searched for by their number, tau apart [radius]: a lattice with as
+/// many as they need. What is exact, as a mesh, is known best at the nodes.
+Places places_of_search(const Pattern& pattern, double tau, bool is_exact) {
+    const double finest = static_cast<double>(pattern.step()) / kMostSubdivisions;
+    const double apart = std::max(finest, tau * (is_exact ? kStepOfExactSearch : kStepOfSearch));
+    Places places = is_exact ? places_of_nodes(pattern, apart) : lattice(static_cast<float>(apart));
+    shake(places, apart);
     return places;
 }
 
@@ -136,8 +142,8 @@ Proposer::Proposer(const FieldSet& fields, const AnalysisResult& analysis,
         if (!is_new) continue;
         const double tau = spacing / frame.radius;
         const Places places = params.target_points > 0
-                                  ? shaken_places(pattern, kCandidateStepOfSearch * tau)
-                                  : places_of_nodes(pattern, kCandidateStep * tau);
+                                  ? places_of_search(pattern, tau, !params.denoise)
+                                  : places_of_nodes(pattern, kStep * tau);
         for (const Eigen::Vector2f& place : places) {
             at->second.push_back({place, pattern.stencil(place.x(), place.y())});
         }
