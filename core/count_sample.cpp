@@ -15,7 +15,8 @@ constexpr double kPartSide = 20.0;        // [tau_p]
 constexpr double kPartSideInRadii = 1.6;  // LPFs that reach into a part lie in it or next to it
 constexpr double kAround = 4.0;           // candidates around a part [tau_p]
 constexpr double kParts = 128.0;          // at most,
-constexpr double kPoints = 1e5;           // and with as many points about
+constexpr double kFewestParts = 4.0;      // if there are as many,
+constexpr double kPoints = 1e5;           // and else with as many points about
 
 struct CellMembers {
     std::vector<std::uint32_t> fields;
@@ -53,9 +54,9 @@ CountSample::CountSample(const FieldSet& fields, const Proposer& proposer, doubl
     const CellLattice lattice{fields.frames[fields.size() / 2].centre,
                               std::max(kPartSide * spacing, kPartSideInRadii * largest)};
     const MembersOfCells members = members_of_cells(fields, lattice);
-    const double cells = static_cast<double>(members.size());
-    const auto stride =
-        static_cast<std::size_t>(std::ceil(std::max(cells / kParts, points / kPoints)));
+    const auto cells = static_cast<double>(members.size());
+    const double apart = std::min(std::max(cells / kParts, points / kPoints), cells / kFewestParts);
+    const auto stride = static_cast<std::size_t>(std::max(1.0, std::ceil(apart)));
     double whole = 0.0;
     double parts = 0.0;
     std::vector<std::vector<std::uint32_t>> numbers;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/count_sample.h"
 #include "tests/support/metrics.h"
 #include "tests/support/shapes.h"
 #include "tests/support/solids.h"
@@ -109,6 +110,19 @@ TEST_F(ProposalsOf, AreTheLonelyPointsThemselves) {
             proposed |= (point - lonely).norm() < 1e-6;
         }
         EXPECT_TRUE(proposed) << lonely.transpose();
+    }
+}
+
+TEST_F(ProposalsOf, ASampleForetellsTheirConsensusHoweverManyPointsAreWanted) {
+    const double spacing = 0.05;
+    const Proposer proposer(*fields, analysis, params, spacing);
+    const auto all = static_cast<double>(
+        find_consensus(propose_all(*fields, analysis, params, spacing), spacing, {}).size());
+    for (const double wanted : {1e3, 1e6, 1e9}) {
+        const CountSample sample(*fields, proposer, spacing, wanted, {});
+        const double foretold = sample.count(spacing, {});
+        EXPECT_GT(foretold, 0.5 * all) << wanted;
+        EXPECT_LT(foretold, 2.0 * all) << wanted;
     }
 }
 
