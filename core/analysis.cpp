@@ -98,7 +98,7 @@ private:
     };
 
     void pass(std::string_view phase, const Execution& execution, Part part) {
-        const std::vector<float> gram = dictionary_.gram();
+        const CodingMatrices matrices(dictionary_);
         std::vector<FieldEnergy> chunk_energy(fields_.chunks());
         residuals_.assign(fields_.size(), 0.0F);
         fields_.for_each_block(
@@ -108,7 +108,7 @@ private:
                 for (std::size_t i = 0; i < block.count; ++i) {
                     energy.before += field_energy(block, i);
                 }
-                encode(gram, block);
+                encode(matrices, block);
                 decode(dictionary_, block);
                 for (std::size_t i = 0; i < block.count; ++i) {
                     const double learned = field_energy(block, i);
@@ -117,16 +117,16 @@ private:
                     if (!stays) pose(block, i);
                     energy.pose += stays ? learned : field_energy(block, i);
                 }
-                if (part.closes) finish(gram, block);
+                if (part.closes) finish(matrices, block);
             });
         record(chunk_energy, part.opens);
     }
 
     /// The codes as they are to be, and what they leave of the fields.
-    void finish(const std::vector<float>& gram, FieldSet::Block& block) {
+    void finish(const CodingMatrices& matrices, FieldSet::Block& block) {
         if (params_.debias) {
             for (std::size_t i = 0; i < block.count; ++i) {
-                debias({gram, correlations(block, i), 0.0F}, codes_[block.number[i]]);
+                debias({matrices.gram, correlations(block, i), 0.0F}, codes_[block.number[i]]);
             }
             decode(dictionary_, block);
         }
@@ -145,21 +145,21 @@ private:
         dictionary.decode_all(std::span(block.codes).first(block.count * d), block.decoded);
     }
 
-    void encode(const std::vector<float>& gram, FieldSet::Block& block) {
-        Coder::correlate(dictionary_,
-                         std::span(block.fields).first(block.count * dictionary_.stride()),
+    void encode(const CodingMatrices& matrices, FieldSet::Block& block) {
+        Coder::correlate(matrices, std::span(block.fields).first(block.count * matrices.stride),
                          block.correlations);
         std::array<LassoTask, kFieldsOfBlock> tasks;
         for (std::size_t i = 0; i < block.count; ++i) {
             const std::size_t j = block.number[i];
             tasks[i] = {correlations(block, i), coder_.lambda * fields_.lambda_share(j), codes_[j]};
         }
-        coder_.solve(gram, std::span(tasks).first(block.count));
+        coder_.solve(matrices.gram, std::span(tasks).first(block.count));
     }
 
     [[nodiscard]] std::span<const float> correlations(const FieldSet::Block& block,
                                                       std::size_t i) const {
-        return std::span(block.correlations).subspan(i * codes_atoms(), codes_atoms());
+        const std::size_t width = whole_lines(codes_atoms());
+        return std::span(block.correlations).subspan(i * width, codes_atoms());
     }
 
     /// Moves LPF and field to where they fit the code best.

@@ -121,11 +121,10 @@ void FieldSet::place(const Points& targets, const AnalysisParams& params, const 
                  });
 }
 
-FieldSet::Worker FieldSet::make_worker(int atoms) const {
+FieldSet::Worker FieldSet::make_worker() const {
     Worker worker;
     worker.field.resize(3 * static_cast<std::size_t>(pattern_.padded_size()));
     worker.decoded.resize(worker.field.size());
-    worker.correlations.resize(static_cast<std::size_t>(atoms));
     return worker;
 }
 
@@ -169,8 +168,9 @@ void FieldSet::for_each_block(std::string_view phase, const Execution& execution
                      Block block;
                      block.fields.resize(kFieldsOfBlock * stride);
                      block.decoded.resize(kFieldsOfBlock * stride);
-                     block.correlations.resize(kFieldsOfBlock * static_cast<std::size_t>(atoms));
-                     block.codes.resize(block.correlations.size());
+                     const auto d = static_cast<std::size_t>(atoms);
+                     block.correlations.resize(kFieldsOfBlock * whole_lines(d));
+                     block.codes.resize(kFieldsOfBlock * d);
                      for (std::size_t j = begin; j < end; ++j) {
                          if (dimensions[j] != kTooFewPoints) {
                              probe(j, scratch, block.field(block.count).data());
@@ -184,11 +184,11 @@ void FieldSet::for_each_block(std::string_view phase, const Execution& execution
                  });
 }
 
-void FieldSet::for_each_probed(std::string_view phase, const Execution& execution, int atoms,
+void FieldSet::for_each_probed(std::string_view phase, const Execution& execution,
                                const Body& body) const {
     parallel_for(execution, phase, "fields", size(), kFieldsPerChunk,
                  [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-                     Worker worker = make_worker(atoms);
+                     Worker worker = make_worker();
                      for (std::size_t j = begin; j < end; ++j) {
                          if (dimensions[j] == kTooFewPoints) continue;
                          probe(j, worker.probe, worker.field.data());
@@ -214,7 +214,7 @@ void FieldSet::for_each_gathered(std::string_view phase, const Execution& execut
                      const std::size_t chunk = far_from_last(turn, chunks());
                      const std::size_t begin = chunk * kFieldsPerChunk;
                      const std::size_t end = std::min(begin + kFieldsPerChunk, size());
-                     Worker worker = make_worker(0);
+                     Worker worker = make_worker();
                      for (std::size_t j = begin; j < end; ++j) {
                          (this->*gather_points)(j, worker.probe.target);
                          body(j, worker, chunk);
@@ -237,13 +237,13 @@ std::vector<std::size_t> FieldSet::draw_sample(int count, std::uint64_t random_s
     return usable;
 }
 
-std::vector<float> FieldSet::probe_sample(const std::vector<std::size_t>& sample,
-                                          const Execution& execution) const {
+AlignedFloats FieldSet::probe_sample(const std::vector<std::size_t>& sample,
+                                     const Execution& execution) const {
     const std::size_t stride = 3 * static_cast<std::size_t>(pattern_.padded_size());
-    std::vector<float> fields(sample.size() * stride);
+    AlignedFloats fields(sample.size() * stride);
     parallel_for(execution, "learn", "fields", sample.size(), kFieldsPerChunk,
                  [&](std::size_t begin, std::size_t end, std::size_t) {
-                     Worker worker = make_worker(0);
+                     Worker worker = make_worker();
                      for (std::size_t i = begin; i < end; ++i) {
                          probe(sample[i], worker.probe, worker.field.data());
                          std::ranges::copy(
@@ -260,7 +260,7 @@ void FieldSet::optimise_poses(int passes, const Execution& execution) {
             step_of(execution, static_cast<std::size_t>(pass), static_cast<std::size_t>(passes));
         parallel_for(part, "pose", "fields", size(), kFieldsPerChunk,
                      [&](std::size_t begin, std::size_t end, std::size_t) {
-                         Worker worker = make_worker(0);
+                         Worker worker = make_worker();
                          for (std::size_t j = begin; j < end; ++j) {
                              if (dimensions[j] == kTooFewPoints || pose_is_fixed(j)) continue;
                              probe(j, worker.probe, worker.field.data());

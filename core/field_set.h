@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/analysis.h"
+#include "core/base/aligned_floats.h"
 #include "core/field/piece.h"
 #include "core/field/probing.h"
 #include "core/field/target_area.h"
@@ -30,22 +31,20 @@ public:
     /// What a thread needs to work on one LPF after the other.
     struct Worker {
         ProbeScratch probe;
-        std::vector<float> field;    ///< V_j, three channels of pattern.padded_size()
-        std::vector<float> decoded;  ///< D alpha_j
-        std::vector<float> correlations;
+        AlignedFloats field;    ///< V_j, three channels of pattern.padded_size()
+        AlignedFloats decoded;  ///< D alpha_j
     };
 
     /// Runs body(j, worker, chunk) for every LPF with a usable target area, `worker.field` freshly
     /// probed and `worker.probe.target` in frame coordinates. `chunk` numbers the fixed chunks of
     /// LPFs.
     using Body = std::function<void(std::size_t j, Worker& worker, std::size_t chunk)>;
-    /// @param atoms room for that many correlations in the worker
-    void for_each_probed(std::string_view phase, const Execution& execution, int atoms,
+    void for_each_probed(std::string_view phase, const Execution& execution,
                          const Body& body) const;
 
     /// For callers that choose the LPFs themselves: what a thread needs, the target area of one,
     /// the field of one.
-    [[nodiscard]] Worker make_worker(int atoms) const;
+    [[nodiscard]] Worker make_worker() const;
     void gather(std::size_t j, TargetArea& target) const;
     void probe(std::size_t j, ProbeScratch& scratch, float* field) const;
 
@@ -57,16 +56,16 @@ public:
     struct Block {
         std::array<std::size_t, kFieldsOfBlock> number;  ///< of each in the set
         std::size_t count = 0;
-        std::vector<float> fields;        ///< V_j, one behind the other
-        std::vector<float> decoded;       ///< D alpha_j, alike
-        std::vector<float> correlations;  ///< d for each
-        std::vector<float> codes;         ///< d for each
+        AlignedFloats fields;        ///< V_j, one behind the other
+        AlignedFloats decoded;       ///< D alpha_j, alike
+        AlignedFloats correlations;  ///< whole_lines(d) for each
+        AlignedFloats codes;         ///< d for each
 
         [[nodiscard]] std::span<float> field(std::size_t i) { return part(fields, i); }
         [[nodiscard]] std::span<float> decoded_field(std::size_t i) { return part(decoded, i); }
 
     private:
-        [[nodiscard]] static std::span<float> part(std::vector<float>& all, std::size_t i) {
+        [[nodiscard]] static std::span<float> part(AlignedFloats& all, std::size_t i) {
             const std::size_t size = all.size() / kFieldsOfBlock;
             return std::span(all).subspan(i * size, size);
         }
@@ -89,8 +88,8 @@ public:
     [[nodiscard]] std::vector<std::size_t> draw_sample(int count, std::uint64_t random_seed) const;
 
     /// The fields of some LPFs as they are now, side by side.
-    [[nodiscard]] std::vector<float> probe_sample(const std::vector<std::size_t>& sample,
-                                                  const Execution& execution) const;
+    [[nodiscard]] AlignedFloats probe_sample(const std::vector<std::size_t>& sample,
+                                             const Execution& execution) const;
 
     /// As-orthogonal-as-possible poses (Sec. 2.2): alternates probing with the rigid motion that
     /// minimises the norms of all v_i.

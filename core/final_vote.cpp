@@ -39,7 +39,7 @@ void vote_on(const PointGrid& grid, const FieldSet& fields, const Voter& voter,
              const Numbers& voters, Ballot& ballot, const Execution& execution) {
     parallel_for(execution, "vote", "fields", voters.size(), kFieldsPerChunk,
                  [&](std::size_t begin, std::size_t end, std::size_t) {
-                     FieldSet::Worker worker = fields.make_worker(0);
+                     FieldSet::Worker worker = fields.make_worker();
                      TargetArea& target = worker.probe.target;
                      for (const std::uint32_t j : std::span(voters).subspan(begin, end - begin)) {
                          if (fields.dimensions[j] == kTooFewPoints) continue;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 
 #include "core/base/random.h"
 #include "core/support.h"
@@ -91,7 +92,7 @@ Places places_of_search(const Pattern& pattern, double tau, bool is_exact) {
 constexpr float kLargestJump = 4.0F;
 
 /// Where a field moves a place of the plane; nothing where the field jumps.
-std::optional<Eigen::Vector3f> displace(const Pattern& pattern, const std::vector<float>& field,
+std::optional<Eigen::Vector3f> displace(const Pattern& pattern, std::span<const float> field,
                                         const Eigen::Vector2f& place,
                                         const Pattern::Stencil& stencil) {
     const int stride = pattern.padded_size();
@@ -163,7 +164,7 @@ Candidates Proposer::propose(std::span<const std::uint32_t> numbers, const Eigen
     std::vector<Proposals> chunks(chunk_count(numbers.size(), kFieldsPerChunk));
     parallel_for(execution, "propose", "fields", numbers.size(), kFieldsPerChunk,
                  [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-                     FieldSet::Worker worker = fields_.make_worker(0);
+                     FieldSet::Worker worker = fields_.make_worker();
                      for (std::size_t i = begin; i < end; ++i) {
                          propose(numbers[i], box, worker, chunks[chunk]);
                      }

@@ -8,6 +8,26 @@
 namespace lpf::kernels {
 
 LPF_MULTIVERSION
+void write_systems(const float* gram, std::size_t d, std::size_t n, const unsigned* atoms,
+                   const double* used, const double* right, double* systems) {
+    const auto at = [](const double* values, std::size_t i) -> const Doubles& {
+        return reinterpret_cast<const Doubles*>(values)[i];
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+        const float* row[kSystems];
+        for (std::size_t s = 0; s < kSystems; ++s) row[s] = gram + atoms[i * kSystems + s] * d;
+        Doubles* const to = reinterpret_cast<Doubles*>(systems) + row_of_system(i, n);
+        for (std::size_t j = i; j < n; ++j) {
+            const unsigned* const k = atoms + j * kSystems;
+            const Doubles entries = {row[0][k[0]], row[1][k[1]], row[2][k[2]], row[3][k[3]],
+                                     row[4][k[4]], row[5][k[5]], row[6][k[6]], row[7][k[7]]};
+            to[j] = entries * (at(used, i) * at(used, j));
+        }
+        to[n] = at(right, i);
+    }
+}
+
+LPF_MULTIVERSION
 void solve_definite(double* a, std::size_t n, double* x) {
     static_assert(kSystems == kDoubleLanes);
     constexpr double kDependent = 1e-6;  // share of its diagonal under which a pivot is rounding
@@ -76,20 +96,26 @@ std::size_t find_moves(const float* diagonal, const float* inverse_diagonal, flo
 }
 
 LPF_MULTIVERSION
-void descent_sweep(const float* gram, std::size_t d, float threshold, const float* inverse_diagonal,
-                   const unsigned* atoms, std::size_t count, float* code, float* residual) {
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t k = atoms[i];
-        const float old = code[k];
-        const float* row = gram + k * d;
-        const float pull = residual[k] + row[k] * old;
-        const float excess = std::abs(pull) - threshold;
-        const float magnitude = excess > 0 ? excess * inverse_diagonal[k] : 0;
-        const float move = std::copysign(magnitude, pull) - old;
-        if (move == 0) continue;
-        code[k] = old + move;
+void descent_sweeps(const float* gram, std::size_t d, const float* inverse_diagonal,
+                    const Sweep* sweeps, std::size_t n) {
+    std::size_t most = 0;
+    for (std::size_t s = 0; s < n; ++s) most = sweeps[s].count > most ? sweeps[s].count : most;
+    for (std::size_t i = 0; i < most; ++i) {
+        for (std::size_t s = 0; s < n; ++s) {
+            const Sweep& sweep = sweeps[s];
+            if (i >= sweep.count) continue;
+            const std::size_t k = sweep.atoms[i];
+            const float* const row = gram + k * d;
+            float* const residual = sweep.residual;
+            const float old = sweep.code[k];
+            const float pull = residual[k] + row[k] * old;
+            const float excess = std::abs(pull) - sweep.threshold;
+            const float magnitude = excess > 0 ? excess * inverse_diagonal[k] : 0;
+            const float move = std::copysign(magnitude, pull) - old;
+            sweep.code[k] = old + move;
 #pragma omp simd
-        for (std::size_t j = 0; j < d; ++j) residual[j] -= move * row[j];
+            for (std::size_t j = 0; j < d; ++j) residual[j] -= move * row[j];
+        }
     }
 }
 

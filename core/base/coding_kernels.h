@@ -15,6 +15,14 @@ inline constexpr std::size_t kSystems = 8;
 }
 [[nodiscard]] constexpr std::size_t size_of_system(std::size_t n) { return n * (n + 3) / 2; }
 
+/// Writes the systems that minimise the energy of several codes over their atoms in use: entry
+/// (i, j) is that of the Gram matrix for atoms i and j of the system.
+/// @param gram of D, d x d  @param n atoms of a system, at most
+/// @param atoms number i of system s at i kSystems + s; any where it is not used
+/// @param used alike: 1, or 0 where the system has fewer atoms  @param right the right-hand sides
+void write_systems(const float* gram, std::size_t d, std::size_t n, const unsigned* atoms,
+                   const double* used, const double* right, double* systems);
+
 /// Solves A x = b for kSystems symmetric positive definite A of n rows: values of all systems lie
 /// side by side. Unknowns that depend linearly on those before them become 0, and so do those whose
 /// rows and columns are 0; the digits of a system depend neither on these nor on the others.
@@ -24,16 +32,24 @@ void solve_definite(double* a, std::size_t n, double* x);
 
 /// Finds the atoms whose coefficients coordinate descent would move by more than the tolerance,
 /// each from the code as it is.
-/// @param diagonal of the Gram matrix  @param inverse_diagonal as for descent_sweep
+/// @param diagonal of the Gram matrix  @param inverse_diagonal as for descent_sweeps
 /// @param atoms out, ascending; has room for d + 1  @returns how many
 std::size_t find_moves(const float* diagonal, const float* inverse_diagonal, float threshold,
                        float tolerance, const float* code, const float* residual, std::size_t d,
                        unsigned* atoms);
 
-/// One sweep of coordinate descent on |V - D a|^2 + 2 threshold |a|_1 over the atoms listed.
+/// A code in coordinate descent on |V - D a|^2 + 2 threshold |a|_1.
+struct Sweep {
+    float threshold;
+    const unsigned* atoms;  ///< that are visited
+    std::size_t count;      ///< of these
+    float* code;            ///< a: d coefficients, in and out
+    float* residual;        ///< D'(V - D a): d correlations, in and out
+};
+
+/// One sweep of each of several codes, side by side: none waits for its own last step.
 /// @param gram of D, d x d  @param inverse_diagonal of gram, 0 for an atom of norm 0
-/// @param code, residual d coefficients a and d correlations D'(V - D a), in and out
-void descent_sweep(const float* gram, std::size_t d, float threshold, const float* inverse_diagonal,
-                   const unsigned* atoms, std::size_t count, float* code, float* residual);
+void descent_sweeps(const float* gram, std::size_t d, const float* inverse_diagonal,
+                    const Sweep* sweeps, std::size_t n);
 
 }  // namespace lpf::kernels

@@ -23,6 +23,48 @@ inline float sum_of_lanes(const Floats& values) {
     return sum;
 }
 
+/// out = left right, or what is added to it; a part of the loops that are compiled several times.
+template <bool kAdds>
+[[gnu::always_inline]] inline void product(const float* left, std::size_t count, std::size_t inner,
+                                           const float* right, std::size_t n, float* out) {
+    // Eight rows at a time share the loads of the columns, and are sums enough to keep the adders
+    // busy.
+    constexpr std::size_t kRows = 8;
+    const std::size_t whole = n - n % kLanes;
+    for (std::size_t first = 0; first < count; first += kRows) {
+        const std::size_t rows = count - first < kRows ? count - first : kRows;
+        const float* a[kRows];
+        float* to[kRows];
+        for (std::size_t k = 0; k < kRows; ++k) {
+            a[k] = left + (first + k % rows) * inner;
+            to[k] = out + (first + k % rows) * n;
+        }
+        for (std::size_t j = 0; j < whole; j += kLanes) {
+            Floats s0{}, s1{}, s2{}, s3{}, s4{}, s5{}, s6{}, s7{};
+            if constexpr (kAdds) {
+                s0 = lanes_at(to[0] + j), s1 = lanes_at(to[1] + j), s2 = lanes_at(to[2] + j);
+                s3 = lanes_at(to[3] + j), s4 = lanes_at(to[4] + j), s5 = lanes_at(to[5] + j);
+                s6 = lanes_at(to[6] + j), s7 = lanes_at(to[7] + j);
+            }
+            for (std::size_t i = 0; i < inner; ++i) {
+                const FloatsAt& with = lanes_at(right + i * n + j);
+                s0 += a[0][i] * with, s1 += a[1][i] * with, s2 += a[2][i] * with;
+                s3 += a[3][i] * with, s4 += a[4][i] * with, s5 += a[5][i] * with;
+                s6 += a[6][i] * with, s7 += a[7][i] * with;
+            }
+            const Floats sums[kRows] = {s0, s1, s2, s3, s4, s5, s6, s7};
+            for (std::size_t k = 0; k < rows; ++k) lanes_at(to[k] + j) = sums[k];
+        }
+        for (std::size_t k = 0; k < rows; ++k) {
+            for (std::size_t j = whole; j < n; ++j) {
+                float sum = kAdds ? to[k][j] : 0.0F;
+                for (std::size_t i = 0; i < inner; ++i) sum += a[k][i] * right[i * n + j];
+                to[k][j] = sum;
+            }
+        }
+    }
+}
+
 }  // namespace
 
 LPF_MULTIVERSION
@@ -69,69 +111,15 @@ void multiply_rows(const float* rows, std::size_t row_count, std::size_t n, cons
 }
 
 LPF_MULTIVERSION
-void multiply_rows_with_all(const float* rows, std::size_t row_count, std::size_t n, const float* v,
-                            std::size_t v_count, float* out) {
-    // Four rows stay in the first cache while all v pass by, two at a time.
-    const std::size_t whole = n - n % kLanes;
-    for (std::size_t first = 0; first < row_count; first += 4) {
-        const std::size_t rows_left = row_count - first < 4 ? row_count - first : 4;
-        const float* row[4];
-        for (std::size_t k = 0; k < 4; ++k) row[k] = rows + (first + k % rows_left) * n;
-        for (std::size_t j = 0; j < v_count; j += 2) {
-            const std::size_t v_left = v_count - j < 2 ? 1 : 2;
-            const float* with[2] = {v + j * n, v + (j + v_left - 1) * n};
-            Floats s0{}, s1{}, s2{}, s3{}, t0{}, t1{}, t2{}, t3{};
-            for (std::size_t i = 0; i < whole; i += kLanes) {
-                const FloatsAt& a = lanes_at(with[0] + i);
-                const FloatsAt& b = lanes_at(with[1] + i);
-                s0 += lanes_at(row[0] + i) * a, s1 += lanes_at(row[1] + i) * a;
-                s2 += lanes_at(row[2] + i) * a, s3 += lanes_at(row[3] + i) * a;
-                t0 += lanes_at(row[0] + i) * b, t1 += lanes_at(row[1] + i) * b;
-                t2 += lanes_at(row[2] + i) * b, t3 += lanes_at(row[3] + i) * b;
-            }
-            const Floats sums[2][4] = {{s0, s1, s2, s3}, {t0, t1, t2, t3}};
-            for (std::size_t l = 0; l < v_left; ++l) {
-                for (std::size_t k = 0; k < rows_left; ++k) {
-                    float sum = sum_of_lanes(sums[l][k]);
-                    for (std::size_t i = whole; i < n; ++i) sum += row[k][i] * with[l][i];
-                    out[(j + l) * row_count + first + k] = sum;
-                }
-            }
-        }
-    }
+void multiply(const float* left, std::size_t count, std::size_t inner, const float* right,
+              std::size_t n, float* out) {
+    product<false>(left, count, inner, right, n, out);
 }
 
 LPF_MULTIVERSION
-void multiply(const float* left, std::size_t count, std::size_t inner, const float* right,
-              std::size_t n, float* out) {
-    // Eight rows at a time share the loads of the columns, and are sums enough to keep the adders
-    // busy.
-    constexpr std::size_t kRows = 8;
-    const std::size_t whole = n - n % kLanes;
-    for (std::size_t first = 0; first < count; first += kRows) {
-        const std::size_t rows = count - first < kRows ? count - first : kRows;
-        const float* a[kRows];
-        for (std::size_t k = 0; k < kRows; ++k) a[k] = left + (first + k % rows) * inner;
-        float* const to = out + first * n;
-        for (std::size_t j = 0; j < whole; j += kLanes) {
-            Floats s0{}, s1{}, s2{}, s3{}, s4{}, s5{}, s6{}, s7{};
-            for (std::size_t i = 0; i < inner; ++i) {
-                const FloatsAt& with = lanes_at(right + i * n + j);
-                s0 += a[0][i] * with, s1 += a[1][i] * with, s2 += a[2][i] * with;
-                s3 += a[3][i] * with, s4 += a[4][i] * with, s5 += a[5][i] * with;
-                s6 += a[6][i] * with, s7 += a[7][i] * with;
-            }
-            const Floats sums[kRows] = {s0, s1, s2, s3, s4, s5, s6, s7};
-            for (std::size_t k = 0; k < rows; ++k) lanes_at(to + k * n + j) = sums[k];
-        }
-        for (std::size_t k = 0; k < rows; ++k) {
-            for (std::size_t j = whole; j < n; ++j) {
-                float sum = 0.0F;
-                for (std::size_t i = 0; i < inner; ++i) sum += a[k][i] * right[i * n + j];
-                to[k * n + j] = sum;
-            }
-        }
-    }
+void add_product(const float* left, std::size_t count, std::size_t inner, const float* right,
+                 std::size_t n, float* out) {
+    product<true>(left, count, inner, right, n, out);
 }
 
 LPF_MULTIVERSION

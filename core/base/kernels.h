@@ -16,13 +16,13 @@ float squared_distance(const float* a, const float* b, std::size_t n);
 void multiply_rows(const float* rows, std::size_t row_count, std::size_t n, const float* v,
                    float* out);
 
-/// The same for several vectors v, one behind the other: out[j row_count + k] = row k . v_j.
-void multiply_rows_with_all(const float* rows, std::size_t row_count, std::size_t n, const float* v,
-                            std::size_t v_count, float* out);
-
 /// out = left right, for count x inner and inner x n values, row-major.
 void multiply(const float* left, std::size_t count, std::size_t inner, const float* right,
               std::size_t n, float* out);
+
+/// The same, added to out.
+void add_product(const float* left, std::size_t count, std::size_t inner, const float* right,
+                 std::size_t n, float* out);
 
 /// out[i] += scale * in[i].
 void add_scaled(float scale, const float* in, float* out, std::size_t n);

@@ -33,22 +33,27 @@ void convolve(const float* in, float* out, std::size_t n, int stride, const floa
 }
 
 LPF_MULTIVERSION
-void nearest_to_nodes(const float* x, const float* y, std::size_t n, float first_x, float step,
-                      float row_y, float squared[16], int point[16]) {
+void nearest_to_nodes(const float* x, const float* y, const float* z, std::size_t n, float first_x,
+                      float step, float row_y, float squared[16], float* out, std::size_t stride) {
     Floats node;
     for (int k = 0; k < kLanes; ++k) node[k] = first_x + step * static_cast<float>(k);
     Floats nearest = std::numeric_limits<float>::infinity() - Floats{};
-    Ints who = Ints{};
+    // What is kept of a point are its coordinates; a number would have to be looked up.
+    Floats its_x = node, its_y = row_y - Floats{}, its_z = Floats{};
     for (std::size_t i = 0; i < n; ++i) {
         const Floats dx = x[i] - node;
         const float dy = y[i] - row_y;
         const Floats d = dx * dx + dy * dy;
         const Ints is_nearer = d < nearest;
-        who = is_nearer ? static_cast<int>(i) - Ints{} : who;
+        its_x = is_nearer ? x[i] - Floats{} : its_x;
+        its_y = is_nearer ? y[i] - Floats{} : its_y;
+        its_z = is_nearer ? z[i] - Floats{} : its_z;
         nearest = is_nearer ? d : nearest;
     }
+    *reinterpret_cast<FloatsAt*>(out) = its_x - node;
+    *reinterpret_cast<FloatsAt*>(out + stride) = its_y - row_y;
+    *reinterpret_cast<FloatsAt*>(out + 2 * stride) = its_z;
     std::memcpy(squared, &nearest, sizeof nearest);
-    std::memcpy(point, &who, sizeof who);
 }
 
 LPF_MULTIVERSION

@@ -9,11 +9,12 @@ namespace lpf::kernels {
 /// @param taps points at the middle of 2 reach + 1 values
 void convolve(const float* in, float* out, std::size_t n, int stride, const float* taps, int reach);
 
-/// Which of the points is nearest to each of 16 nodes at (first_x + k step, row_y), k < 16.
-/// @param squared, point out: squared distance, infinite where there are no points, and whose it
-/// is; of equally near ones the first
-void nearest_to_nodes(const float* x, const float* y, std::size_t n, float first_x, float step,
-                      float row_y, float squared[16], int point[16]);
+/// Displacements of 16 nodes at (first_x + k step, row_y, 0) to the points nearest in the plane, of
+/// equally near ones the first.
+/// @param squared out: distance in the plane, squared; infinite where there are no points
+/// @param out x, y and z of the displacements, `stride` floats from one channel to the next
+void nearest_to_nodes(const float* x, const float* y, const float* z, std::size_t n, float first_x,
+                      float step, float row_y, float squared[16], float* out, std::size_t stride);
 
 /// Adds (1, x, y, z) of each point to the cell it lies in, of a raster of cells that are `step`
 /// wide, the middle one about 0; points beyond the raster count in its outermost cells.

@@ -2,7 +2,8 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <vector>
+
+#include "core/base/aligned_floats.h"
 
 namespace lpf {
 
@@ -62,7 +63,7 @@ private:
     int padded_ = 0;
     int grid_size_ = 0;
     float step_ = 0;
-    std::vector<float> data_;  // x, y, z channels
+    AlignedFloats data_;  // x, y, z channels
     std::vector<int> by_distance_;
     int raster_size_ = 0;      // lookup raster over [-1, 1]^2, raster_size_ cells a side
     std::vector<int> raster_;  // grid: node at lattice corner; otherwise: four nearest nodes

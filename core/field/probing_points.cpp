@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "core/base/probing_kernels.h"
@@ -121,44 +122,42 @@ private:
 class PointRows {
 public:
     PointRows(const TargetArea& target, float step, int half, ProbeScratch& scratch)
-        : first_(scratch.cells), x_(scratch.raster), y_(scratch.raster2), order_(scratch.cells2) {
+        : size_(target.size), first_(scratch.cells), sorted_(scratch.raster) {
         const std::size_t n = target.size;
         const auto limit = static_cast<float>(half);
         const float per_step = 1.0F / step;
-        order_.resize(2 * n);
-        int* const row = order_.data() + n;
+        first_.assign(2 * static_cast<std::size_t>(half) + 2, 0);
+        int* const count = first_.data() + 1;
+        std::vector<int>& row = scratch.cells2;
+        row.resize(2 * n);
+        int* const place = row.data() + n;  // among those of its row
         for (std::size_t i = 0; i < n; ++i) {
             const float at = std::clamp(target.y[i] * per_step, -limit, limit);
             row[i] = static_cast<int>(at + limit + 0.5F);
         }
-        first_.assign(2 * static_cast<std::size_t>(half) + 3, 0);
-        int* const next = first_.data() + 1;  // counts of the rows, then where each goes on
-        for (std::size_t i = 0; i < n; ++i) ++next[row[i]];
-        int before = 0;
-        for (int r = 0; r <= 2 * half; ++r) before += std::exchange(next[r], before);
-        x_.resize(n);
-        y_.resize(n);
+        for (std::size_t i = 0; i < n; ++i) place[i] = count[row[i]]++;
+        std::partial_sum(first_.begin(), first_.end(), first_.begin());
+        sorted_.resize(3 * n);
         for (std::size_t i = 0; i < n; ++i) {
-            const auto at = static_cast<std::size_t>(next[row[i]]++);
-            x_[at] = target.x[i];
-            y_[at] = target.y[i];
-            order_[at] = static_cast<int>(i);
+            float* const to = sorted_.data() + first_[static_cast<std::size_t>(row[i])] + place[i];
+            to[0] = target.x[i];
+            to[n] = target.y[i];
+            to[2 * n] = target.z[i];
         }
-        // Each row has gone on to the start of the next: first_[r] is where row r begins.
     }
 
     [[nodiscard]] int begin_of(int row) const { return first_[static_cast<std::size_t>(row)]; }
-    [[nodiscard]] const float* x(int from) const { return x_.data() + from; }
-    [[nodiscard]] const float* y(int from) const { return y_.data() + from; }
+    [[nodiscard]] int size() const { return static_cast<int>(size_); }
 
-    /// Numbers in the target area of the points from that one on.
-    [[nodiscard]] const int* numbers(int from) const { return order_.data() + from; }
+    /// Channel c (0 = x, 1 = y, 2 = z) of the points from that one on.
+    [[nodiscard]] const float* channel(std::size_t c, int from) const {
+        return sorted_.data() + c * size_ + from;
+    }
 
 private:
+    std::size_t size_;
     std::vector<int>& first_;
-    std::vector<float>& x_;
-    std::vector<float>& y_;
-    std::vector<int>& order_;
+    std::vector<float>& sorted_;
 };
 
 /// On a grid: 16 nodes of a row at a time look at the points in the rows about them.
@@ -168,7 +167,8 @@ public:
         : pattern_(pattern), half_(pattern.grid_size() / 2) {
         for (int i = 0; i < pattern.size();) {
             Run run{.first_node = i, .row = row_of(i), .nodes = 0};
-            while (i < pattern.size() && run.nodes < kLanes && row_of(i) == run.row) {
+            while (i < pattern.size() && run.nodes < static_cast<int>(kLanes) &&
+                   row_of(i) == run.row) {
                 ++run.nodes;
                 ++i;
             }
@@ -177,29 +177,25 @@ public:
     }
 
     void probe(const Frame&, bool, ProbeScratch& scratch, float* v) const override {
-        std::fill_n(v, 3 * pattern_.padded_size(), 0.0F);
         const TargetArea& target = scratch.target;
-        if (target.size == 0) return;
+        if (target.size == 0) {
+            std::fill_n(v, 3 * pattern_.padded_size(), 0.0F);
+            return;
+        }
         const PointRows rows(target, pattern_.step(), half_, scratch);
         const int reach = reach_for(target);
-        Nearest nearest;
         for (const Run& run : runs_) {
-            const int low = std::max(run.row - reach, 0);
-            const int high = std::min(run.row + reach, 2 * half_);
-            look(run, rows, rows.begin_of(low), rows.begin_of(high + 1), nearest);
-            int begin = rows.begin_of(low);
-            if (!is_sure(run, nearest, reach)) {
-                begin = 0;
-                look(run, rows, 0, static_cast<int>(target.size), nearest);
-            }
-            set_displacements(run, nearest, rows.numbers(begin), target, v);
+            // Seldom are the rows next to it not enough; a node at a hole asks for all of them.
+            if (look(run, rows, reach, v) || look(run, rows, 2 * reach, v)) continue;
+            look(run, rows, 2 * half_, v);
         }
+        clear_padding(v);
     }
 
 private:
-    static constexpr int kLanes = 16;
+    static constexpr std::size_t kLanes = 16;
     /// So many points within the reach of a node make it unlikely that none is.
-    static constexpr float kPointsInReach = 12.0F;
+    static constexpr float kPointsInReach = 5.5F;
 
     /// Nodes one beside the other.
     struct Run {
@@ -207,19 +203,38 @@ private:
         int row;
         int nodes;
     };
-    struct Nearest {
-        float squared[kLanes];
-        int point[kLanes];
-    };
 
-    void set_displacements(const Run& run, const Nearest& nearest, const int* numbers,
-                           const TargetArea& target, float* v) const {
-        const std::vector<float>* const coordinates[3] = {&target.x, &target.y, &target.z};
+    /// Displaces the nodes of a run to the nearest points in so many rows to either side.
+    /// @returns whether no other point can be nearer
+    bool look(const Run& run, const PointRows& rows, int reach, float* v) const {
+        const int low = std::max(run.row - reach, 0);
+        const int high = std::min(run.row + reach, 2 * half_);
+        const int begin = rows.begin_of(low);
+        const int end = rows.begin_of(high + 1);
+        if (begin == end) return false;
+        const std::size_t padded = static_cast<std::size_t>(pattern_.padded_size());
+        const auto first = static_cast<std::size_t>(run.first_node);
+        // Lanes behind the run are those of runs to come, but for the last.
+        const bool fits = first + kLanes <= padded;
+        float squared[kLanes];
+        float found[3 * kLanes];
+        kernels::nearest_to_nodes(
+            rows.channel(0, begin), rows.channel(1, begin), rows.channel(2, begin),
+            static_cast<std::size_t>(end - begin), pattern_.channel(0)[first], pattern_.step(),
+            pattern_.channel(1)[first], squared, fits ? v + first : found, fits ? padded : kLanes);
+        for (std::size_t c = 0; c < 3 && !fits; ++c) {
+            std::copy_n(found + c * kLanes, run.nodes, v + c * padded + first);
+        }
+        const float sure = pattern_.step() * (static_cast<float>(reach) + 0.49F);
+        int unsure = 0;
+        for (int k = 0; k < run.nodes; ++k) unsure += static_cast<int>(squared[k] > sure * sure);
+        return unsure == 0 || end - begin == rows.size();
+    }
+
+    void clear_padding(float* v) const {
         for (int c = 0; c < 3; ++c) {
-            const float* const from = coordinates[c]->data();
-            const float* const node = pattern_.channel(c) + run.first_node;
-            float* const to = v + c * pattern_.padded_size() + run.first_node;
-            for (int k = 0; k < run.nodes; ++k) to[k] = from[numbers[nearest.point[k]]] - node[k];
+            float* const channel = v + c * pattern_.padded_size();
+            std::fill(channel + pattern_.size(), channel + pattern_.padded_size(), 0.0F);
         }
     }
 
@@ -235,20 +250,6 @@ private:
             static_cast<float>(target.size) * pattern_.step() * pattern_.step() / kPi;
         const float reach = std::sqrt(kPointsInReach / (kPi * points_of_node)) - 0.5F;
         return std::clamp(static_cast<int>(std::ceil(reach)), 1, half_);
-    }
-
-    void look(const Run& run, const PointRows& rows, int begin, int end, Nearest& nearest) const {
-        kernels::nearest_to_nodes(
-            rows.x(begin), rows.y(begin), static_cast<std::size_t>(end - begin),
-            pattern_.channel(0)[run.first_node], pattern_.step(),
-            pattern_.channel(1)[run.first_node], nearest.squared, nearest.point);
-    }
-
-    /// Points beyond the reach are farther away than what was found.
-    [[nodiscard]] bool is_sure(const Run& run, const Nearest& nearest, int reach) const {
-        const float sure = pattern_.step() * (static_cast<float>(reach) + 0.49F);
-        return std::all_of(nearest.squared, nearest.squared + run.nodes,
-                           [&](float squared) { return squared <= sure * sure; });
     }
 
     Pattern pattern_;

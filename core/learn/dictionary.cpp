@@ -26,6 +26,15 @@ struct NonZero {
     }
 };
 
+/// Columns of rows x n values, each with zeros behind it up to `padded` values.
+AlignedFloats transpose(const float* values, std::size_t rows, std::size_t n, std::size_t padded) {
+    AlignedFloats columns(n * padded, 0.0F);
+    for (std::size_t i = 0; i < rows; ++i) {
+        for (std::size_t k = 0; k < n; ++k) columns[k * padded + i] = values[i * n + k];
+    }
+    return columns;
+}
+
 }  // namespace
 
 Dictionary::Dictionary(Pattern pattern, int atoms)
@@ -62,18 +71,22 @@ std::vector<float> Dictionary::gram() const {
     return gram;
 }
 
+AlignedFloats Dictionary::transposed() const {
+    const auto d = static_cast<std::size_t>(atoms_);
+    return transpose(data(), d, stride_, whole_lines(d));
+}
+
 DictionaryStatistics::DictionaryStatistics(int atoms, std::size_t stride)
     : atoms_(static_cast<std::size_t>(atoms)),
       stride_(stride),
       a_(atoms_ * atoms_, 0.0F),
       b_(atoms_ * stride, 0.0F) {}
 
-void DictionaryStatistics::add(std::span<const float> code, std::span<const float> field) {
-    for (std::size_t k = 0; k < atoms_; ++k) {
-        if (code[k] == 0.0F) continue;
-        kernels::add_scaled(code[k], code.data(), a_.data() + k * atoms_, atoms_);
-        kernels::add_scaled(code[k], field.data(), b_.data() + k * stride_, stride_);
-    }
+void DictionaryStatistics::add(std::span<const float> codes, std::span<const float> fields) {
+    const std::size_t count = fields.size() / stride_;
+    const AlignedFloats of_atoms = transpose(codes.data(), count, atoms_, count);
+    kernels::add_product(of_atoms.data(), atoms_, count, codes.data(), atoms_, a_.data());
+    kernels::add_product(of_atoms.data(), atoms_, count, fields.data(), stride_, b_.data());
 }
 
 void DictionaryStatistics::add(const DictionaryStatistics& other) {

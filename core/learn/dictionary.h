@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/aligned_floats.h"
 #include "core/field/pattern.h"
 
 namespace lpf {
@@ -31,11 +32,14 @@ public:
     /// G = D'D: atoms() x atoms(), row-major.
     [[nodiscard]] std::vector<float> gram() const;
 
+    /// D': stride() rows of whole_lines(d) floats, zeros behind the last atom.
+    [[nodiscard]] AlignedFloats transposed() const;
+
 private:
     Pattern pattern_;
     int atoms_;
     std::size_t stride_;
-    std::vector<float> values_;
+    AlignedFloats values_;
 };
 
 /// What a round of coding leaves for the dictionary update: A = sum a a' and B = sum V a' (Mairal
@@ -44,8 +48,8 @@ class DictionaryStatistics {
 public:
     DictionaryStatistics(int atoms, std::size_t stride);
 
-    /// Adds one field of `stride` floats and its code.
-    void add(std::span<const float> code, std::span<const float> field);
+    /// Adds fields of `stride` floats each and their codes, one behind the other.
+    void add(std::span<const float> codes, std::span<const float> fields);
     void add(const DictionaryStatistics& other);
 
     /// One sweep of block coordinate descent over the atoms: lowers sum |V - D a|^2 with the codes
@@ -55,8 +59,8 @@ public:
 private:
     std::size_t atoms_;
     std::size_t stride_;
-    std::vector<float> a_;  // d x d
-    std::vector<float> b_;  // d x stride
+    AlignedFloats a_;  // d x d
+    AlignedFloats b_;  // d x stride
 };
 
 /// Makes `field` an atom: scaled to norm 1; the zero field stays zero.

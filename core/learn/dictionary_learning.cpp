@@ -15,27 +15,26 @@ constexpr std::size_t kFieldsPerChunk = 256;
 DictionaryStatistics encode_sample(const FieldSample& sample, const Coder& coder,
                                    const Dictionary& dictionary, SparseCodes& codes,
                                    const Execution& execution) {
-    const std::vector<float> gram = dictionary.gram();
+    const CodingMatrices matrices(dictionary);
     std::vector<DictionaryStatistics> parts(
         chunk_count(sample.count(), kFieldsPerChunk),
         DictionaryStatistics(dictionary.atoms(), dictionary.stride()));
     parallel_for(execution, "learn", "fields", sample.count(), kFieldsPerChunk,
                  [&](std::size_t begin, std::size_t end, std::size_t chunk) {
                      const auto d = static_cast<std::size_t>(dictionary.atoms());
-                     std::vector<float> correlations(kFieldsOfBlock * d);
+                     AlignedFloats correlations(kFieldsOfBlock * matrices.width);
                      std::array<LassoTask, kFieldsOfBlock> tasks;
                      for (std::size_t first = begin; first < end; first += kFieldsOfBlock) {
                          const std::size_t size = std::min(kFieldsOfBlock, end - first);
-                         Coder::correlate(dictionary, sample.some(first, size), correlations);
+                         const std::span<const float> fields = sample.some(first, size);
+                         Coder::correlate(matrices, fields, correlations);
                          for (std::size_t k = 0; k < size; ++k) {
-                             tasks[k] = {std::span(correlations).subspan(k * d, d),
+                             tasks[k] = {std::span(correlations).subspan(k * matrices.width, d),
                                          coder.lambda * sample.share_of(first + k),
                                          codes[first + k]};
                          }
-                         coder.solve(gram, std::span(tasks).first(size));
-                         for (std::size_t i = first; i < first + size; ++i) {
-                             parts[chunk].add(codes[i], sample[i]);
-                         }
+                         coder.solve(matrices.gram, std::span(tasks).first(size));
+                         parts[chunk].add(codes.some(first, size), fields);
                      }
                  });
     for (std::size_t c = 1; c < parts.size(); ++c) parts[0].add(parts[c]);
@@ -44,24 +43,24 @@ DictionaryStatistics encode_sample(const FieldSample& sample, const Coder& coder
 
 }  // namespace
 
-void Coder::encode(const Dictionary& dictionary, std::span<const float> gram,
-                   std::span<const float> field, std::span<float> correlations,
+CodingMatrices::CodingMatrices(const Dictionary& dictionary)
+    : gram(dictionary.gram()),
+      transposed(dictionary.transposed()),
+      stride(dictionary.stride()),
+      width(whole_lines(static_cast<std::size_t>(dictionary.atoms()))) {}
+
+void Coder::encode(const CodingMatrices& matrices, std::span<const float> field,
                    std::span<float> code, float lambda_share) const {
-    correlate(dictionary, field, correlations);
+    AlignedFloats correlations(matrices.width);
+    correlate(matrices, field, correlations);
     const LassoTask task{correlations, lambda * lambda_share, code};
-    solve(gram, {&task, 1});
+    solve(matrices.gram, {&task, 1});
 }
 
-void Coder::correlate(const Dictionary& dictionary, std::span<const float> fields,
+void Coder::correlate(const CodingMatrices& matrices, std::span<const float> fields,
                       std::span<float> correlations) {
-    const auto d = static_cast<std::size_t>(dictionary.atoms());
-    const std::size_t stride = dictionary.stride();
-    if (fields.size() == stride) {
-        kernels::multiply_rows(dictionary.data(), d, stride, fields.data(), correlations.data());
-    } else {
-        kernels::multiply_rows_with_all(dictionary.data(), d, stride, fields.data(),
-                                        fields.size() / stride, correlations.data());
-    }
+    kernels::multiply(fields.data(), fields.size() / matrices.stride, matrices.stride,
+                      matrices.transposed.data(), matrices.width, correlations.data());
 }
 
 void Coder::solve(std::span<const float> gram, std::span<const LassoTask> tasks) const {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/aligned_floats.h"
 #include "core/base/parallel.h"
 #include "core/learn/dictionary.h"
 #include "core/learn/lasso.h"
@@ -11,22 +12,28 @@
 
 namespace lpf {
 
+/// What fields are coded with, made once for all of them.
+struct CodingMatrices {
+    explicit CodingMatrices(const Dictionary& dictionary);
+    std::vector<float> gram;   ///< G = D'D: d x d
+    AlignedFloats transposed;  ///< D': stride x width, zeros behind the last atom
+    std::size_t stride;
+    std::size_t width;  ///< of the correlations of one field: whole_lines(d)
+};
+
 /// How fields are turned into codes (paper Eq. 3 with the dictionary fixed).
 struct Coder {
     float lambda = 0.2F;
     LassoMethod method = LassoMethod::CoordinateDescent;
 
-    /// @param gram         dictionary.gram()
-    /// @param correlations room for d values
     /// @param code         in: where to start from; out: the sparse code of `field`
     /// @param lambda_share factor on lambda for this field, > 0
-    void encode(const Dictionary& dictionary, std::span<const float> gram,
-                std::span<const float> field, std::span<float> correlations, std::span<float> code,
+    void encode(const CodingMatrices& matrices, std::span<const float> field, std::span<float> code,
                 float lambda_share = 1.0F) const;
 
-    /// What comes before and after: c = D'V of several fields at once, one behind the other; and
-    /// their codes.
-    static void correlate(const Dictionary& dictionary, std::span<const float> fields,
+    /// What it takes, for several fields at once: c = D'V, matrices.width values for each; and the
+    /// codes.
+    static void correlate(const CodingMatrices& matrices, std::span<const float> fields,
                           std::span<float> correlations);
     void solve(std::span<const float> gram, std::span<const LassoTask> tasks) const;
 };
@@ -37,7 +44,7 @@ inline constexpr std::size_t kFieldsOfBlock = 8;
 
 /// Some LPFs' fields, side by side: `count` x stride floats.
 struct FieldSample {
-    std::vector<float> fields;
+    AlignedFloats fields;
     std::size_t stride = 0;
     std::vector<float> lambda_share = {};  ///< factor on lambda of each; empty = 1 for all
     [[nodiscard]] std::size_t count() const { return stride ? fields.size() / stride : 0; }

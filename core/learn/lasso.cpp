@@ -33,6 +33,50 @@ struct ActiveSet {
     std::size_t count = 0;
 };
 
+/// Values of all systems side by side, in one line of the cache.
+struct alignas(64) Side {
+    double value[kernels::kSystems];
+};
+
+/// What the steps of several descents to their minima solve for; a place that no atom is set at
+/// counts as none.
+class Systems {
+public:
+    explicit Systems(std::size_t atoms)
+        : room_(std::make_unique_for_overwrite<Side[]>(kernels::size_of_system(atoms) + 3 * atoms)),
+          numbers_(std::make_unique_for_overwrite<unsigned[]>(atoms * kernels::kSystems)) {}
+
+    /// Empties them. @param n atoms of each, at most
+    void reset(std::size_t n) {
+        n_ = n;
+        std::fill_n(used(), 2 * n * kernels::kSystems, 0.0);  // and the right-hand sides behind
+        std::fill_n(numbers_.get(), n * kernels::kSystems, 0U);
+    }
+
+    void set(std::size_t s, std::size_t i, unsigned atom, double right_hand_side) {
+        const std::size_t at = i * kernels::kSystems + s;
+        numbers_[at] = atom;
+        used()[at] = 1.0;
+        right()[at] = right_hand_side;
+    }
+
+    /// @returns the unknowns: number i of system s at i kSystems + s
+    const double* solve(const float* gram, std::size_t d) {
+        double* const entries = room_[3 * n_].value;
+        kernels::write_systems(gram, d, n_, numbers_.get(), used(), right(), entries);
+        kernels::solve_definite(entries, n_, room_[2 * n_].value);
+        return room_[2 * n_].value;
+    }
+
+private:
+    [[nodiscard]] double* used() { return room_[0].value; }
+    [[nodiscard]] double* right() { return room_[n_].value; }
+
+    std::size_t n_ = 0;
+    std::unique_ptr<Side[]> room_;
+    std::unique_ptr<unsigned[]> numbers_;
+};
+
 /// State of a descent: residual correlations r = c - G a are kept up to date, so that visiting an
 /// atom costs O(1) unless its coefficient moves.
 class Descent {
@@ -52,16 +96,12 @@ public:
 
     [[nodiscard]] std::size_t non_zeros() const { return active_.count; }
 
-    /// Writes what a step to the minimum solves as number s of the systems of n unknowns.
-    void write_system(std::size_t s, std::size_t n, double* systems) const {
+    /// Writes what a step to the minimum solves for, as number s of the systems.
+    void write_system(std::size_t s, Systems& systems) const {
         for (std::size_t i = 0; i < active_.count; ++i) {
             const unsigned k = active_.atom[i];
-            const float* row = atoms_->gram + k * atoms_->d;
-            double* const to = systems + kernels::row_of_system(i, n) * kernels::kSystems + s;
-            for (std::size_t j = i; j < active_.count; ++j) {
-                to[j * kernels::kSystems] = double{row[active_.atom[j]]};
-            }
-            to[n * kernels::kSystems] = double{residual_[k] - std::copysign(threshold_, code_[k])};
+            const float side = std::copysign(threshold_, code_[k]);
+            systems.set(s, i, k, double{residual_[k] - side});
         }
     }
 
@@ -72,8 +112,12 @@ public:
         double length = 1;
         std::size_t crossing = kMaxAtoms;
         for (std::size_t i = 0; i < active_.count; ++i) {
-            const double reach = -code_[active_.atom[i]] / steps[i * kernels::kSystems];
-            if (reach > 0 && reach < length) length = reach, crossing = i;
+            const double step = steps[i * kernels::kSystems];
+            const double from = code_[active_.atom[i]];
+            // Few cross: no division for the others.
+            if (from * step < 0 && std::abs(from) < length * std::abs(step)) {
+                length = -from / step, crossing = i;
+            }
         }
         for (std::size_t i = 0; i < active_.count; ++i) {
             float& coefficient = code_[active_.atom[i]];
@@ -83,20 +127,20 @@ public:
         correlate();
     }
 
-    /// Moves the coefficients that one by one would move by more than the tolerance.
-    /// @returns whether there were any
-    bool sweep(float tolerance) {
+    /// Lists the coefficients that one by one would move by more than the tolerance.
+    /// @returns whether there are any
+    bool find_moves(float tolerance) {
         active_.count = kernels::find_moves(
             atoms_->diagonal.data(), atoms_->inverse_diagonal.data(), threshold_, tolerance, code_,
             residual_.data(), atoms_->d, active_.atom.data());
-        if (active_.count == 0) return false;
-        kernels::descent_sweep(atoms_->gram, atoms_->d, threshold_, atoms_->inverse_diagonal.data(),
-                               active_.atom.data(), active_.count, code_, residual_.data());
-        find_non_zero();
-        return true;
+        return active_.count > 0;
     }
 
-private:
+    /// The sweep over these.
+    [[nodiscard]] kernels::Sweep sweep() {
+        return {threshold_, active_.atom.data(), active_.count, code_, residual_.data()};
+    }
+
     void find_non_zero() {
         active_.count = 0;
         for (std::size_t k = 0; k < atoms_->d; ++k) {
@@ -105,6 +149,7 @@ private:
         }
     }
 
+private:
     /// The residual correlations of the code as it is.
     void correlate() {
         find_non_zero();
@@ -125,55 +170,52 @@ private:
     ActiveSet active_;
 };
 
-/// Values of all systems side by side, in one line of the cache.
-struct alignas(64) Side {
-    double value[kernels::kSystems];
-};
+/// Where correlated atoms make the sweeps crawl: steps of all to the minimum for their signs.
+/// Atoms that depend linearly on those before them stay where they are.
+void jump_to_minima(const Atoms& atoms, std::span<Descent*> running, Systems& systems) {
+    std::size_t n = 0;
+    for (const Descent* descent : running) n = std::max(n, descent->non_zeros());
+    systems.reset(n);
+    for (std::size_t s = 0; s < running.size(); ++s) running[s]->write_system(s, systems);
+    const double* const steps = systems.solve(atoms.gram, atoms.d);
+    for (std::size_t s = 0; s < running.size(); ++s) running[s]->walk(steps + s);
+}
 
-/// Takes steps of fields that are coded at the same time.
-class ExactSteps {
-public:
-    explicit ExactSteps(const Atoms& atoms)
-        : room_(
-              std::make_unique_for_overwrite<Side[]>(kernels::size_of_system(atoms.d) + atoms.d)) {}
+/// A sweep of each over the coefficients that still move.
+/// @returns those that had any, moved to the front
+std::span<Descent*> sweep(const Atoms& atoms, std::span<Descent*> running, float tolerance) {
+    const auto end = std::remove_if(running.begin(), running.end(),
+                                    [&](Descent* one) { return !one->find_moves(tolerance); });
+    running = running.first(static_cast<std::size_t>(end - running.begin()));
+    std::array<kernels::Sweep, kernels::kSystems> sweeps;
+    for (std::size_t s = 0; s < running.size(); ++s) sweeps[s] = running[s]->sweep();
+    kernels::descent_sweeps(atoms.gram, atoms.d, atoms.inverse_diagonal.data(), sweeps.data(),
+                            running.size());
+    for (Descent* one : running) one->find_non_zero();
+    return running;
+}
 
-    /// Where correlated atoms make the sweeps crawl: steps of all to the minimum for their signs.
-    /// Atoms that depend linearly on those before them stay where they are.
-    void jump_to_minima(std::span<Descent*> running) {
-        std::size_t n = 0;
-        for (const Descent* descent : running) n = std::max(n, descent->non_zeros());
-        double* const systems = room_[0].value;
-        double* const steps = room_[kernels::size_of_system(n)].value;
-        std::fill(systems, steps, 0.0);
-        for (std::size_t s = 0; s < running.size(); ++s) running[s]->write_system(s, n, systems);
-        kernels::solve_definite(systems, n, steps);
-        for (std::size_t s = 0; s < running.size(); ++s) running[s]->walk(steps + s);
-    }
-
-private:
-    std::unique_ptr<Side[]> room_;
-};
-
-/// Exact steps on the non-zero coefficients, and after each a sweep over those that still move: a
-/// code that was nearly right is so after the first step.
+/// A few sweeps, in which most atoms leave or join that are to, take turns with exact steps on the
+/// non-zero coefficients: a code that was nearly right is so after the first.
 /// @returns the most sweeps that any took
 int descend(const Atoms& atoms, std::span<const LassoTask> tasks, float tolerance, int max_sweeps) {
+    constexpr int kSweepsBeforeStep = 2;
     std::array<Descent, kernels::kSystems> descents;
-    std::array<Descent*, kernels::kSystems> running;
+    std::array<Descent*, kernels::kSystems> all;
     for (std::size_t s = 0; s < tasks.size(); ++s) {
         descents[s].start(atoms, tasks[s]);
-        running[s] = &descents[s];
+        all[s] = &descents[s];
     }
-    ExactSteps exact_steps(atoms);
-    std::size_t count = tasks.size();
-    for (int sweeps = 0;; ++sweeps) {
-        exact_steps.jump_to_minima(std::span(running).first(count));
-        if (sweeps == max_sweeps) return sweeps;
-        const auto end = std::remove_if(running.begin(), running.begin() + count,
-                                        [&](Descent* one) { return !one->sweep(tolerance); });
-        count = static_cast<std::size_t>(end - running.begin());
-        if (count == 0) return sweeps;
+    Systems systems(atoms.d);
+    std::span<Descent*> running = std::span(all).first(tasks.size());
+    for (int sweeps = 0; sweeps < max_sweeps;) {
+        for (int i = 0; i < kSweepsBeforeStep; ++i, ++sweeps) {
+            running = sweep(atoms, running, tolerance);
+            if (running.empty()) return sweeps;
+        }
+        jump_to_minima(atoms, running, systems);
     }
+    return max_sweeps;
 }
 
 }  // namespace

@@ -32,6 +32,11 @@ public:
         return {values_.data() + field * static_cast<std::size_t>(atoms_),
                 static_cast<std::size_t>(atoms_)};
     }
+    /// Those of n LPFs from number j on.
+    [[nodiscard]] std::span<const float> some(std::size_t j, std::size_t n) const {
+        const auto d = static_cast<std::size_t>(atoms_);
+        return {values_.data() + j * d, n * d};
+    }
 
 private:
     int atoms_ = 0;

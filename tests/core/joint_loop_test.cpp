@@ -66,9 +66,8 @@ TEST(JointLoop, OneIterationIsTheStepsOfThePaper) {
                 params.lambda * double{fields.lambda_share(j)} * l1(codes[j])) /
                static_cast<double>(fields.size());
     };
-    fields.for_each_probed("", {}, params.atoms, [&](std::size_t j, auto& worker, std::size_t) {
-        coder.encode(dictionary, dictionary.gram(), worker.field, worker.correlations, codes[j],
-                     fields.lambda_share(j));
+    fields.for_each_probed("", {}, [&](std::size_t j, auto& worker, std::size_t) {
+        coder.encode(CodingMatrices(dictionary), worker.field, codes[j], fields.lambda_share(j));
         dictionary.decode(codes[j], worker.decoded);
         expected.learning += energy(j, worker);
         const RigidFit fit = fit_pose(fields.pattern(), worker.field.data(), worker.decoded.data());
@@ -77,7 +76,7 @@ TEST(JointLoop, OneIterationIsTheStepsOfThePaper) {
         expected.pose += energy(j, worker);
     });
     fields.frames = moved;
-    fields.for_each_probed("", {}, params.atoms, [&](std::size_t j, auto& worker, std::size_t) {
+    fields.for_each_probed("", {}, [&](std::size_t j, auto& worker, std::size_t) {
         dictionary.decode(codes[j], worker.decoded);
         expected.probing += energy(j, worker);
     });
@@ -114,7 +113,7 @@ TEST(JointLoop, FinalCodesSolveTheLassoOfTheFinalPoses) {
         FieldSet fields(shape, params, {});
         const AnalysisResult result = analyze(fields, params, {});
         std::vector<float> usage(6, 0.0F);
-        fields.for_each_probed("", {}, 6, [&](std::size_t j, auto& worker, std::size_t) {
+        fields.for_each_probed("", {}, [&](std::size_t j, auto& worker, std::size_t) {
             result.dictionary.decode(result.codes[j], worker.decoded);
             const double rms = std::sqrt(squared_misfit(worker) / fields.pattern().size());
             ASSERT_NEAR(result.residuals[j], rms, 1e-4);
@@ -204,7 +203,7 @@ TEST(FieldSet, PassesOverLpfsOfTooFewPoints) {
     const auto lonely = std::ranges::count(fields.dimensions, std::uint8_t{kTooFewPoints});
     ASSERT_GE(lonely, 3);
     std::size_t probed = 0;
-    fields.for_each_probed("", {}, 0, [&](std::size_t j, auto&, std::size_t) {
+    fields.for_each_probed("", {}, [&](std::size_t j, auto&, std::size_t) {
         ++probed;
         EXPECT_NE(fields.dimensions[j], kTooFewPoints);
     });

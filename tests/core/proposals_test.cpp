@@ -208,7 +208,7 @@ TEST_F(ProposalsOf, PutBackTheDetailAskedFor) {
     params.detail = 0.25;
     const Candidates quarter = proposals(1.0);
     const auto stride = static_cast<std::size_t>(fields->pattern().padded_size());
-    fields->for_each_probed("", {}, 0, [&](std::size_t j, auto& worker, std::size_t) {
+    fields->for_each_probed("", {}, [&](std::size_t j, auto& worker, std::size_t) {
         const std::vector<Vector3f> smooth = of_field(consolidated, j);
         const std::vector<Vector3f> full = of_field(exact, j);
         const std::vector<Vector3f> part = of_field(quarter, j);

@@ -33,7 +33,7 @@ struct Analysed {
 
     [[nodiscard]] Fit fit(std::size_t j) const {
         const Voter voter(fields, analysis, false, params.analysis.noise);
-        FieldSet::Worker worker = fields.make_worker(0);
+        FieldSet::Worker worker = fields.make_worker();
         fields.gather_ball(j, worker.probe.target);
         const FieldImage image = voter.image(j, worker);
         return voter.fit(j, worker.probe.target, Voter::field_at(worker.probe.target, image));

@@ -6,6 +6,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
+#include <array>
 #include <memory>
 
 #include "core/auto_parameters.h"
@@ -84,7 +86,7 @@ BENCHMARK(Gather);
 
 void Probe(benchmark::State& state, const std::unique_ptr<ProbingOperator>& probing) {
     const Scene& s = scene();
-    std::vector<float> field(s.analysis->dictionary.stride());
+    AlignedFloats field(s.analysis->dictionary.stride());
     std::vector<ProbeScratch> scratch(64);
     for (std::size_t i = 0; i < scratch.size(); ++i) {
         s.gather(i, scratch[i].target);
@@ -99,68 +101,85 @@ void Probe(benchmark::State& state, const std::unique_ptr<ProbingOperator>& prob
 BENCHMARK_CAPTURE(Probe, orthogonal, make_orthogonal_probing(Pattern::grid(16)));
 BENCHMARK_CAPTURE(Probe, noise_aware, make_noise_aware_probing(Pattern::grid(16), 0.15));
 
-std::vector<float> some_fields(std::size_t count) {
+AlignedFloats some_fields(std::size_t count) {
     const Scene& s = scene();
     return s.fields->probe_sample(
         {s.surfaces.begin(), s.surfaces.begin() + static_cast<std::ptrdiff_t>(count)}, {});
 }
 
+/// Time of one LPF, where a block of them is at work.
+void count_fields(benchmark::State& state) {
+    state.counters["perLPF"] = benchmark::Counter(
+        static_cast<double>(kFieldsOfBlock),
+        benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
 void Correlate(benchmark::State& state) {
     const Dictionary& dictionary = scene().analysis->dictionary;
-    const std::vector<float> fields = some_fields(64);
-    const std::size_t stride = dictionary.stride();
-    std::vector<float> out(static_cast<std::size_t>(dictionary.atoms()));
-    std::size_t i = 0;
+    const CodingMatrices matrices(dictionary);
+    const AlignedFloats fields = some_fields(kFieldsOfBlock);
+    AlignedFloats out(kFieldsOfBlock * matrices.width);
     for (auto _ : state) {
-        kernels::multiply_rows(dictionary.data(), out.size(), stride,
-                               fields.data() + (i++ % 64) * stride, out.data());
+        Coder::correlate(matrices, fields, out);
         benchmark::DoNotOptimize(out.data());
     }
-    count_operations(state, 2.0 * static_cast<double>(state.iterations() * stride * out.size()));
+    count_fields(state);
+    count_operations(state, 2.0 * static_cast<double>(state.iterations()) *
+                                static_cast<double>(fields.size()) * dictionary.atoms());
 }
 BENCHMARK(Correlate);
 
 void Code(benchmark::State& state) {
     const Scene& s = scene();
-    const Dictionary& dictionary = s.analysis->dictionary;
-    const std::vector<float> fields = some_fields(64);
-    const std::vector<float> gram = dictionary.gram();
+    const CodingMatrices matrices(s.analysis->dictionary);
+    const AlignedFloats fields = some_fields(64);
+    const auto d = static_cast<std::size_t>(s.analysis->dictionary.atoms());
     const Coder coder{static_cast<float>(s.params.lambda), LassoMethod::CoordinateDescent};
-    std::vector<float> correlations(static_cast<std::size_t>(dictionary.atoms()));
-    std::vector<float> code(correlations.size(), 0.0F);
-    std::size_t i = 0;
+    AlignedFloats correlations(64 * matrices.width);
+    Coder::correlate(matrices, fields, correlations);
+    SparseCodes codes(64, s.analysis->dictionary.atoms());
+    std::array<LassoTask, kFieldsOfBlock> tasks;
+    std::size_t block = 0;
     for (auto _ : state) {
-        const std::size_t j = i++ % 64;
-        std::ranges::copy(s.analysis->codes[s.surfaces[j]], code.begin());
-        for (float& value : code) value *= 0.95F;  // as an iteration of the joint loop finds it
-        coder.encode(dictionary, gram,
-                     {fields.data() + j * dictionary.stride(), dictionary.stride()}, correlations,
-                     code);
-        benchmark::DoNotOptimize(code.data());
+        const std::size_t first = block++ % (64 / kFieldsOfBlock) * kFieldsOfBlock;
+        for (std::size_t k = 0; k < kFieldsOfBlock; ++k) {
+            const std::span<float> code = codes[first + k];
+            std::ranges::copy(s.analysis->codes[s.surfaces[first + k]], code.begin());
+            for (float& value : code) value *= 0.95F;  // as an iteration of the joint loop finds it
+            tasks[k] = {std::span(correlations).subspan((first + k) * matrices.width, d),
+                        coder.lambda, code};
+        }
+        coder.solve(matrices.gram, tasks);
+        benchmark::DoNotOptimize(codes.values().data());
     }
+    count_fields(state);
 }
 BENCHMARK(Code);
 
 void Decode(benchmark::State& state) {
     const Scene& s = scene();
-    std::vector<float> out(s.analysis->dictionary.stride());
-    std::size_t i = 0;
-    double used = 0;
-    for (auto _ : state) {
-        const auto code = s.analysis->codes[s.surfaces[i++ % 64]];
-        s.analysis->dictionary.decode(code, out);
-        benchmark::DoNotOptimize(out.data());
-        used += static_cast<double>(std::ranges::count_if(code, [](float c) { return c != 0; }));
+    const Dictionary& dictionary = s.analysis->dictionary;
+    AlignedFloats codes;
+    for (std::size_t k = 0; k < kFieldsOfBlock; ++k) {
+        const auto code = s.analysis->codes[s.surfaces[k]];
+        codes.insert(codes.end(), code.begin(), code.end());
     }
-    count_operations(state, 2.0 * used * static_cast<double>(out.size()));
+    AlignedFloats out(kFieldsOfBlock * dictionary.stride());
+    for (auto _ : state) {
+        dictionary.decode_all(codes, out);
+        benchmark::DoNotOptimize(out.data());
+    }
+    count_fields(state);
+    count_operations(state, 2.0 * static_cast<double>(state.iterations()) *
+                                static_cast<double>(out.size()) * dictionary.atoms());
 }
 BENCHMARK(Decode);
 
 void Pose(benchmark::State& state) {
     const Scene& s = scene();
-    const std::vector<float> fields = some_fields(64);
+    const AlignedFloats fields = some_fields(64);
     const std::size_t stride = s.analysis->dictionary.stride();
-    std::vector<float> decoded(stride);
+    AlignedFloats decoded(stride);
     s.analysis->dictionary.decode(s.analysis->codes[s.surfaces[0]], decoded);
     std::size_t i = 0;
     for (auto _ : state) {

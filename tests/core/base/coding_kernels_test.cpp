@@ -136,24 +136,61 @@ TEST(CodingKernels, FindMovesNamesWhatWouldMove) {
     }
 }
 
-TEST(CodingKernels, SweepMovesOneCoefficientAfterTheOther) {
+TEST(CodingKernels, SweepsMoveOneCoefficientOfEachCodeAfterTheOther) {
     for (const std::size_t d : kSizes) {
-        Code expected(d);
-        Code code(d);
-        std::vector<unsigned> atoms;
-        for (unsigned k = 0; k < d; k += 2) atoms.push_back(k);
-        for (const unsigned k : atoms) {
-            const float move = expected.move(k, kThreshold);
-            expected.code[k] += move;
-            for (std::size_t j = 0; j < d; ++j) {
-                expected.residual[j] -= move * expected.gram[k * d + j];
+        std::vector<Code> expected(3, Code(d));
+        std::vector<Code> codes(3, Code(d));
+        std::vector<std::vector<unsigned>> atoms(3);  // all, every second, none
+        for (unsigned k = 0; k < d; ++k) atoms[0].push_back(k);
+        for (unsigned k = 0; k < d; k += 2) atoms[1].push_back(k);
+        std::vector<kernels::Sweep> sweeps;
+        for (std::size_t s = 0; s < 3; ++s) {
+            for (const unsigned k : atoms[s]) {
+                const float move = expected[s].move(k, kThreshold);
+                expected[s].code[k] += move;
+                for (std::size_t j = 0; j < d; ++j) {
+                    expected[s].residual[j] -= move * expected[s].gram[k * d + j];
+                }
+            }
+            sweeps.push_back({kThreshold, atoms[s].data(), atoms[s].size(), codes[s].code.data(),
+                              codes[s].residual.data()});
+        }
+        kernels::descent_sweeps(codes[0].gram.data(), d, codes[0].inverse_diagonal.data(),
+                                sweeps.data(), sweeps.size());
+        for (std::size_t s = 0; s < 3; ++s) {
+            for (std::size_t k = 0; k < d; ++k) {
+                EXPECT_NEAR(codes[s].code[k], expected[s].code[k], 1e-5);
+                EXPECT_NEAR(codes[s].residual[k], expected[s].residual[k], 1e-5);
             }
         }
-        kernels::descent_sweep(code.gram.data(), d, kThreshold, code.inverse_diagonal.data(),
-                               atoms.data(), atoms.size(), code.code.data(), code.residual.data());
-        for (std::size_t k = 0; k < d; ++k) {
-            EXPECT_NEAR(code.code[k], expected.code[k], 1e-5);
-            EXPECT_NEAR(code.residual[k], expected.residual[k], 1e-5);
+    }
+}
+
+TEST(CodingKernels, WriteSystemsTakesTheEntriesOfTheAtomsInUse) {
+    constexpr std::size_t kAtoms = 9;
+    const Code code(kAtoms);
+    for (const std::size_t n : {1U, 2U, 5U}) {
+        std::vector<unsigned> atoms(n * kernels::kSystems);
+        std::vector<double> used(atoms.size());
+        std::vector<double> right(atoms.size());
+        for (std::size_t i = 0; i < atoms.size(); ++i) {
+            atoms[i] = static_cast<unsigned>(i * 7 % kAtoms);
+            used[i] = i % 3 == 0 ? 0.0 : 1.0;
+            right[i] = static_cast<double>(i);
+        }
+        std::vector<double> systems(kernels::size_of_system(n) * kernels::kSystems, -77.0);
+        kernels::write_systems(code.gram.data(), kAtoms, n, atoms.data(), used.data(), right.data(),
+                               systems.data());
+        for (std::size_t s = 0; s < kernels::kSystems; ++s) {
+            const auto at = [s](std::size_t i) { return i * kernels::kSystems + s; };
+            for (std::size_t i = 0; i < n; ++i) {
+                const std::size_t row = kernels::row_of_system(i, n);
+                for (std::size_t j = i; j < n; ++j) {
+                    const double entry = code.gram[atoms[at(i)] * kAtoms + atoms[at(j)]];
+                    EXPECT_EQ(systems[at(row + j)], entry * used[at(i)] * used[at(j)]);
+                }
+                EXPECT_EQ(systems[at(row + n)], right[at(i)]);
+            }
         }
     }
 }

@@ -29,36 +29,43 @@ protected:
     const std::size_t n = GetParam();
 };
 
-TEST_P(ProbingKernelsOf, NearestToNodesIsTheFirstOfTheNearest) {
+TEST_P(ProbingKernelsOf, NearestToNodesMovesThemToTheNearestPoints) {
     const Floats x = random_floats(n, 12);
-    Floats y = random_floats(n, 13);
-    if (n > 4) y[4] = y[2];
+    const Floats y = random_floats(n, 13);
+    const Floats z = random_floats(n, 14);
     float squared[16];
-    int point[16];
-    kernels::nearest_to_nodes(x.data(), y.data(), n, -0.8F, 0.1F, 0.2F, squared, point);
-    for (int k = 0; k < 16; ++k) {
+    Floats out(3 * 20, 77.0F);
+    kernels::nearest_to_nodes(x.data(), y.data(), z.data(), n, -0.8F, 0.1F, 0.2F, squared,
+                              out.data(), 20);
+    for (std::size_t k = 0; k < 16; ++k) {
         const float node = -0.8F + 0.1F * static_cast<float>(k);
+        std::size_t nearest = n;
         float least = std::numeric_limits<float>::infinity();
         for (std::size_t i = 0; i < n; ++i) {
-            least = std::min(least, (x[i] - node) * (x[i] - node) + (y[i] - 0.2F) * (y[i] - 0.2F));
+            const float d = (x[i] - node) * (x[i] - node) + (y[i] - 0.2F) * (y[i] - 0.2F);
+            if (d < least) least = d, nearest = i;
         }
         if (n == 0) {
             EXPECT_EQ(squared[k], least);
+            EXPECT_EQ(out[k], 0.0F);
             continue;
         }
         EXPECT_NEAR(squared[k], least, 1e-5F);
-        const auto found = static_cast<std::size_t>(point[k]);
-        EXPECT_NEAR(std::pow(x[found] - node, 2) + std::pow(y[found] - 0.2F, 2), least, 1e-5F);
+        EXPECT_NEAR(out[k], x[nearest] - node, 1e-6F);
+        EXPECT_NEAR(out[20 + k], y[nearest] - 0.2F, 1e-6F);
+        EXPECT_EQ(out[40 + k], z[nearest]);
     }
+    EXPECT_EQ(out[16], 77.0F) << "wrote past the end";
 }
 
 TEST(ProbingKernels, OfEquallyNearPointsTheFirstIsNearest) {
     const Floats x(5, 0.3F);
     const Floats y(5, 0.1F);
+    const Floats z = {1.0F, 2.0F, 3.0F, 4.0F, 5.0F};
     float squared[16];
-    int point[16];
-    kernels::nearest_to_nodes(x.data(), y.data(), 5, -0.8F, 0.1F, 0.2F, squared, point);
-    for (const int p : point) EXPECT_EQ(p, 0);
+    float out[48];
+    kernels::nearest_to_nodes(x.data(), y.data(), z.data(), 5, -0.8F, 0.1F, 0.2F, squared, out, 16);
+    for (int k = 0; k < 16; ++k) EXPECT_EQ(out[32 + k], 1.0F);
 }
 
 TEST(ProbingKernels, NearestToPlaceIsTheFirstOfTheNearest) {

@@ -18,7 +18,7 @@ const std::size_t kStride = 3 * static_cast<std::size_t>(kPattern.padded_size())
 
 /// `count` random fields; those from `turn` on are of another kind.
 FieldSample random_sample(std::size_t count, std::uint64_t seed, std::size_t turn = 0) {
-    FieldSample sample{Floats(count * kStride, 0.0F), kStride, {}};
+    FieldSample sample{AlignedFloats(count * kStride, 0.0F), kStride, {}};
     Random random(seed);
     for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t k = 0; k < kStride; ++k) {
@@ -51,10 +51,8 @@ double energy(const FieldSample& sample, const Dictionary& dictionary, const Spa
 
 Floats encoded(const Coder& coder, const Dictionary& dictionary, std::span<const float> field,
                float share = 1.0F) {
-    const std::vector<float> gram = dictionary.gram();
-    Floats correlations(static_cast<std::size_t>(dictionary.atoms()));
-    Floats code(correlations.size(), 0.0F);
-    coder.encode(dictionary, gram, field, correlations, code, share);
+    Floats code(static_cast<std::size_t>(dictionary.atoms()), 0.0F);
+    coder.encode(CodingMatrices(dictionary), field, code, share);
     return code;
 }
 
@@ -113,14 +111,15 @@ TEST(DrawDictionary, DependsOnTheSeedAndOnNothingElse) {
 TEST(Coder, UsesTheMethodThatItIsToldTo) {
     const FieldSample sample = random_sample(40, 6);
     const Dictionary dictionary = draw_dictionary(kPattern, 12, sample, 1);
-    const std::vector<float> gram = dictionary.gram();
+    const CodingMatrices matrices(dictionary);
     for (std::size_t i = 0; i < sample.count(); ++i) {
-        Floats correlations(12);
+        Floats correlations(matrices.width);
         Floats code(12, 0.5F);
         const Coder coder{0.2F, LassoMethod::Lars};
-        coder.encode(dictionary, gram, sample[i], correlations, code);
+        coder.encode(matrices, sample[i], code);
+        Coder::correlate(matrices, sample[i], correlations);
         Floats expected(12);
-        solve_lars({gram, correlations, 0.2F}, expected);
+        solve_lars({matrices.gram, correlations, 0.2F}, expected);
         ASSERT_EQ(code, expected) << "the same solver gives the same bits";
     }
 }

@@ -1,6 +1,8 @@
 #include "core/learn/dictionary.h"
 
+#include <cstdint>
 #include <gtest/gtest.h>
+#include <numeric>
 
 #include <Eigen/Core>
 #include <cmath>
@@ -253,19 +255,53 @@ TEST(DictionaryLearning, DoesNotDependOnTheNumberOfThreads) {
     EXPECT_EQ(learn(5), one);
 }
 
+TEST(Dictionary, TransposedHasAnAtomInEachColumnAndWholeLines) {
+    const Dictionary dictionary = random_dictionary(12, 12);
+    const AlignedFloats transposed = dictionary.transposed();
+    ASSERT_EQ(transposed.size(), 16 * dictionary.stride());
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(transposed.data()) % 64, 0U);
+    for (std::size_t i = 0; i < dictionary.stride(); ++i) {
+        for (std::size_t k = 0; k < 16; ++k) {
+            const float expected = k < 12 ? dictionary.atom(static_cast<int>(k))[i] : 0.0F;
+            ASSERT_EQ(transposed[i * 16 + k], expected);
+        }
+    }
+}
+
+TEST(Coder, CorrelatesSeveralFieldsWithAllAtoms) {
+    const Dictionary dictionary = random_dictionary(12, 12);
+    const CodingMatrices matrices(dictionary);
+    Random random(14);
+    AlignedFloats fields;
+    for (int i = 0; i < 3; ++i) {
+        const Floats field = random_field(dictionary.pattern(), random);
+        fields.insert(fields.end(), field.begin(), field.end());
+    }
+    AlignedFloats correlations(3 * matrices.width);
+    Coder::correlate(matrices, fields, correlations);
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t k = 0; k < 12; ++k) {
+            const auto atom = dictionary.atom(static_cast<int>(k));
+            const double expected = std::inner_product(
+                atom.begin(), atom.end(),
+                fields.begin() + static_cast<std::ptrdiff_t>(i * matrices.stride), 0.0);
+            EXPECT_NEAR(correlations[i * matrices.width + k], expected, 1e-4);
+        }
+    }
+}
+
 TEST(Coder, BothMethodsGiveTheSameCode) {
     const Dictionary dictionary = random_dictionary(12, 12);
-    const Floats gram = dictionary.gram();
+    const CodingMatrices matrices(dictionary);
     Random random(13);
     for (int trial = 0; trial < 20; ++trial) {
         const Floats field = random_field(dictionary.pattern(), random);
-        Floats correlations(12);
         Floats descended(12, 0.0F);
         Floats exact(12, 0.0F);
         Coder coder{.lambda = 0.5F};
-        coder.encode(dictionary, gram, field, correlations, descended);
+        coder.encode(matrices, field, descended);
         coder.method = LassoMethod::Lars;
-        coder.encode(dictionary, gram, field, correlations, exact);
+        coder.encode(matrices, field, exact);
         for (std::size_t k = 0; k < 12; ++k) ASSERT_NEAR(descended[k], exact[k], 1e-3);
     }
 }
