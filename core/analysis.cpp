@@ -216,12 +216,12 @@ private:
 
 }  // namespace
 
-void check_points(const Points& points) {
+void check_points(const Points& points, const Execution& execution) {
     check_number_of_points(static_cast<std::size_t>(points.cols()));
-    if (!points.allFinite()) {
+    if (!all_finite(points, execution)) {
         throw Error(ErrorCode::InvalidParameter, "The shape has coordinates that are not finite.");
     }
-    check_extent((points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff());
+    check_extent(bounding_box(points, execution).sizes().maxCoeff());
 }
 
 void validate(const AnalysisParams& p) {
@@ -273,7 +273,7 @@ AnalysisResult analyze(FieldSet& fields, const AnalysisParams& params, const Exe
 AnalysisResult analyze(const Shape& shape, const AnalysisParams& params,
                        const Execution& execution) {
     validate(params);
-    check_points(shape.cloud.points);
+    check_points(shape.cloud.points, execution);
     FieldSet fields(shape, params, part_of(execution, 0.0, 0.05));
     fields.optimise_poses(params.pose_iterations, part_of(execution, 0.05, 0.2));
     return analyze(fields, params, part_of(execution, 0.2, 1.0));

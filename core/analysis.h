@@ -78,7 +78,7 @@ void validate(const AnalysisParams& params);
 
 /// @throws Error{TooFewPoints} below 3 points, Error{InvalidParameter} for a coordinate that is not
 /// finite, Error{DegenerateShape} if all points coincide
-void check_points(const Points& points);
+void check_points(const Points& points, const Execution& execution);
 
 /// The joint analysis of a shape (paper Sec. 3.2): poses, dictionary and sparse codes.
 /// @param shape finite points, at least 3, not all the same

@@ -67,7 +67,7 @@ void validate(const DenoiseParams& params) {
 
 DenoiseResult denoise(const Shape& shape, const DenoiseParams& params, const Execution& execution) {
     validate(params);
-    check_points(shape.cloud.points);
+    check_points(shape.cloud.points, execution);
     if (shape.size() > kMostAtOnce) return denoise_tiles_of(shape.cloud.points, params, execution);
     Shape current;
     current.cloud.points = shape.cloud.points;

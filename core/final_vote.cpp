@@ -7,6 +7,7 @@
 
 #include "core/ballot.h"
 #include "core/blocks.h"
+#include "core/shape/extent.h"
 #include "core/shape/point_grid.h"
 #include "core/voter.h"
 
@@ -149,9 +150,9 @@ void put_to_vote(const FieldSet& fields, const AnalysisResult& analysis, double 
         const std::size_t count = std::min(kPointsOfPart, points.size() - first);
         const Points some = points.points.middleCols(static_cast<Eigen::Index>(first),
                                                      static_cast<Eigen::Index>(count));
-        const double cell = cell_of_some_points(some, kPointsOfCell);
+        const double cell = cell_of_some_points(some, kPointsOfCell, execution);
         const PointGrid grid(some, cell > 0 ? cell : spacing, execution);
-        const Eigen::AlignedBox3d space{some.rowwise().minCoeff(), some.rowwise().maxCoeff()};
+        const Eigen::AlignedBox3d space = bounding_box(some, execution);
         Ballot ballot(count, execution);
         vote_on(grid, fields, voter, fields_near(fields.frames, all, space), ballot,
                 step_of(execution, part, parts));

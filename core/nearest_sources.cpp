@@ -3,6 +3,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/shape/extent.h"
 #include "core/shape/point_grid.h"
 #include "core/shape/spatial_index.h"
 
@@ -36,8 +37,8 @@ std::vector<std::uint32_t> nearest_sources(const Points& cloud, const Points& po
     std::vector<std::uint32_t> source(n);
     std::vector<std::vector<std::uint32_t>> far_off(chunk_count(n, kQueriesPerChunk));
     {
-        const double extent = (cloud.rowwise().maxCoeff() - cloud.rowwise().minCoeff()).maxCoeff();
-        double cell = cell_of_some_points(cloud, kPointsOfCell);
+        const double extent = bounding_box(cloud, execution).sizes().maxCoeff();
+        double cell = cell_of_some_points(cloud, kPointsOfCell, execution);
         if (!(cell > 0)) cell = extent > 0 ? extent : 1.0;
         const PointGrid grid(cloud, cell, execution);
         parallel_for(execution, "attributes", "points", n, kQueriesPerChunk,

@@ -127,7 +127,7 @@ private:
 ResampleResult resample(const Shape& shape, const ResampleParams& params,
                         const Execution& execution) {
     validate(params);
-    check_points(shape.cloud.points);
+    check_points(shape.cloud.points, execution);
     const double denoised = params.denoise ? 0.4 : 0.0;
     std::optional<Shape> smooth = without_noise(shape, params, part_of(execution, 0.0, denoised));
     const Execution rest = part_of(execution, denoised, 1.0);

@@ -1,8 +1,20 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cstddef>
 
+#include "core/base/parallel.h"
+#include "core/shape/shape.h"
+
 namespace lpf {
+
+/// The smallest box that holds all points; empty where there are none. Points that are not finite
+/// make no difference or give any box.
+[[nodiscard]] Eigen::AlignedBox3d bounding_box(const Points& points,
+                                               const Execution& execution = {});
+
+/// Whether no coordinate is infinite or not a number.
+[[nodiscard]] bool all_finite(const Points& points, const Execution& execution = {});
 
 /// What every shape needs to be worked on: at least 3 points, not all in one place.
 /// @throws Error{TooFewPoints}

@@ -275,9 +275,9 @@ Measurements measure(const Sampled& cloud, const Execution& execution) {
     Measurements result;
     result.points = static_cast<std::size_t>(points.cols());
     check_number_of_points(result.points);
-    result.diagonal = (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
+    result.diagonal = bounding_box(points, execution).sizes().norm();
     check_extent(result.diagonal);
-    const double cell = cell_of_some_points(points, kPointsInCell);
+    const double cell = cell_of_some_points(points, kPointsInCell, execution);
     const PointGrid grid(points, cell, execution);
     const double radius = measure_spacing(cloud, grid, cell, result, execution);
     result.noise = noise_of(cloud, grid, radius, result, execution);

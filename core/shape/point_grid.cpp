@@ -6,6 +6,7 @@
 
 #include "core/base/kernels.h"
 #include "core/base/radix_sort.h"
+#include "core/shape/extent.h"
 
 namespace lpf {
 namespace {
@@ -49,14 +50,14 @@ Iterator first_from(Iterator begin, Iterator end, std::uint64_t wanted, Member c
 
 }  // namespace
 
-double cell_of_some_points(const Points& points, double most) {
+double cell_of_some_points(const Points& points, double most, const Execution& execution) {
     const Eigen::Index stride = 1 + (points.cols() - 1) / kSampleOfCells;
-    const Eigen::Vector3d low = points.rowwise().minCoeff();
-    double cell = (points.rowwise().maxCoeff() - low).maxCoeff();
+    const Eigen::AlignedBox3d box = bounding_box(points, execution);
+    double cell = box.sizes().maxCoeff();
     for (int i = 0; i < kMostHalvings && cell > 0; ++i, cell /= 2) {
         std::vector<std::uint64_t> keys;
         for (Eigen::Index k = 0; k < points.cols(); k += stride) {
-            const Eigen::Vector3d at = (points.col(k) - low) / cell;
+            const Eigen::Vector3d at = (points.col(k) - box.min()) / cell;
             const auto axis = [&](int a) { return static_cast<std::uint64_t>(at[a]); };
             keys.push_back((axis(2) << 42U) | (axis(1) << 21U) | axis(0));
         }
@@ -81,8 +82,9 @@ PointGrid::PointGrid(const Points& points, double cell, const Execution& executi
         cells_ = {{0, 0}};
         return;
     }
-    origin_ = points.rowwise().minCoeff();
-    const Eigen::Vector3d extent = points.rowwise().maxCoeff() - origin_;
+    const Eigen::AlignedBox3d box = bounding_box(points, execution);
+    origin_ = box.min();
+    const Eigen::Vector3d extent = box.sizes();
     cell = std::max(cell, extent.maxCoeff() / kMaximumCells);
     inverse_cell_ = 1.0 / cell;
     for (int axis = 0; axis < 3; ++axis) {

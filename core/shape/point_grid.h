@@ -21,7 +21,8 @@ struct NearPoints {
 
 /// The side of the largest cells in which a point has no more than `most` others with it on average
 /// (within a factor of two: sides are halved until it is so). Estimated from a sample.
-[[nodiscard]] double cell_of_some_points(const Points& points, double most);
+[[nodiscard]] double cell_of_some_points(const Points& points, double most,
+                                         const Execution& execution);
 
 /// The cloud sorted into cubic cells, for gathering balls of points about as large as a cell.
 /// Points of a row of cells lie one behind the other. Any extent is fine: only cells with points

@@ -5,6 +5,8 @@
 #include <limits>
 #include <nanoflann.hpp>
 
+#include "core/shape/extent.h"
+
 namespace lpf {
 namespace {
 
@@ -86,7 +88,8 @@ using KdTree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<
 
 Eigen::Vector3d centre_of(const Points& points) {
     if (points.cols() == 0) return Eigen::Vector3d::Zero();
-    return points.rowwise().minCoeff() / 2 + points.rowwise().maxCoeff() / 2;
+    const Eigen::AlignedBox3d box = bounding_box(points);
+    return box.min() / 2 + box.max() / 2;
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 #include "core/learn/dictionary.h"
 
-#include <cstdint>
 #include <gtest/gtest.h>
-#include <numeric>
 
 #include <Eigen/Core>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "core/base/error.h"
