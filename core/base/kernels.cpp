@@ -1,5 +1,6 @@
 #include "core/base/kernels.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -23,45 +24,36 @@ inline float sum_of_lanes(const Floats& values) {
     return sum;
 }
 
-/// out = left right, or what is added to it; a part of the loops that are compiled several times.
-template <bool kAdds>
-[[gnu::always_inline]] inline void product(const float* left, std::size_t count, std::size_t inner,
-                                           const float* right, std::size_t n, float* out) {
-    // Eight rows at a time share the loads of the columns, and are sums enough to keep the adders
-    // busy.
-    constexpr std::size_t kRows = 8;
-    const std::size_t whole = n - n % kLanes;
-    for (std::size_t first = 0; first < count; first += kRows) {
-        const std::size_t rows = count - first < kRows ? count - first : kRows;
-        const float* a[kRows];
-        float* to[kRows];
-        for (std::size_t k = 0; k < kRows; ++k) {
-            a[k] = left + (first + k % rows) * inner;
-            to[k] = out + (first + k % rows) * n;
-        }
-        for (std::size_t j = 0; j < whole; j += kLanes) {
-            Floats s0{}, s1{}, s2{}, s3{}, s4{}, s5{}, s6{}, s7{};
-            if constexpr (kAdds) {
-                s0 = lanes_at(to[0] + j), s1 = lanes_at(to[1] + j), s2 = lanes_at(to[2] + j);
-                s3 = lanes_at(to[3] + j), s4 = lanes_at(to[4] + j), s5 = lanes_at(to[5] + j);
-                s6 = lanes_at(to[6] + j), s7 = lanes_at(to[7] + j);
-            }
-            for (std::size_t i = 0; i < inner; ++i) {
-                const FloatsAt& with = lanes_at(right + i * n + j);
-                s0 += a[0][i] * with, s1 += a[1][i] * with, s2 += a[2][i] * with;
-                s3 += a[3][i] * with, s4 += a[4][i] * with, s5 += a[5][i] * with;
-                s6 += a[6][i] * with, s7 += a[7][i] * with;
-            }
-            const Floats sums[kRows] = {s0, s1, s2, s3, s4, s5, s6, s7};
-            for (std::size_t k = 0; k < rows; ++k) lanes_at(to[k] + j) = sums[k];
-        }
-        for (std::size_t k = 0; k < rows; ++k) {
-            for (std::size_t j = whole; j < n; ++j) {
-                float sum = kAdds ? to[k][j] : 0.0F;
-                for (std::size_t i = 0; i < inner; ++i) sum += a[k][i] * right[i * n + j];
-                to[k][j] = sum;
-            }
-        }
+/// out += left right, for four rows (or fewer) of left and two vectors (or one) of columns: so many
+/// sums that the adders are busy, and so few that they stay in registers.
+/// @param inner values of a row of left that are used, of `row` that there are
+[[gnu::always_inline]] inline void add_tile(const float* left, std::size_t rows, std::size_t row,
+                                            std::size_t inner, const float* right, std::size_t n,
+                                            std::size_t vectors, float* out) {
+    const float* const a0 = left;
+    const float* const a1 = left + (1 % rows) * row;
+    const float* const a2 = left + (2 % rows) * row;
+    const float* const a3 = left + (3 % rows) * row;
+    const std::size_t next = (vectors - 1) * kLanes;
+    Floats sums[4][2];
+    for (std::size_t k = 0; k < 4; ++k) {
+        sums[k][0] = lanes_at(out + (k % rows) * n);
+        sums[k][1] = lanes_at(out + (k % rows) * n + next);
+    }
+    Floats s0 = sums[0][0], s1 = sums[1][0], s2 = sums[2][0], s3 = sums[3][0];
+    Floats t0 = sums[0][1], t1 = sums[1][1], t2 = sums[2][1], t3 = sums[3][1];
+    for (std::size_t i = 0; i < inner; ++i) {
+        const Floats s = lanes_at(right + i * n);
+        const Floats t = lanes_at(right + i * n + next);
+        s0 += a0[i] * s, t0 += a0[i] * t;
+        s1 += a1[i] * s, t1 += a1[i] * t;
+        s2 += a2[i] * s, t2 += a2[i] * t;
+        s3 += a3[i] * s, t3 += a3[i] * t;
+    }
+    const Floats of_rows[4][2] = {{s0, t0}, {s1, t1}, {s2, t2}, {s3, t3}};
+    for (std::size_t k = 0; k < rows; ++k) {
+        lanes_at(out + k * n) = of_rows[k][0];
+        lanes_at(out + k * n + next) = of_rows[k][1];
     }
 }
 
@@ -110,16 +102,39 @@ void multiply_rows(const float* rows, std::size_t row_count, std::size_t n, cons
     }
 }
 
-LPF_MULTIVERSION
 void multiply(const float* left, std::size_t count, std::size_t inner, const float* right,
               std::size_t n, float* out) {
-    product<false>(left, count, inner, right, n, out);
+    std::fill_n(out, count * n, 0.0F);
+    add_product(left, count, inner, right, n, out);
 }
 
 LPF_MULTIVERSION
 void add_product(const float* left, std::size_t count, std::size_t inner, const float* right,
                  std::size_t n, float* out) {
-    product<true>(left, count, inner, right, n, out);
+    // Columns of so many rows of right stay in the first cache while all of left passes by.
+    constexpr std::size_t kInner = 128;
+    const std::size_t whole = n - n % kLanes;
+    for (std::size_t begin = 0; begin < inner; begin += kInner) {
+        const std::size_t size = inner - begin < kInner ? inner - begin : kInner;
+        const float* const from = right + begin * n;
+        for (std::size_t j = 0; j < whole; j += 2 * kLanes) {
+            const std::size_t vectors = j + kLanes < whole ? 2 : 1;
+            for (std::size_t first = 0; first < count; first += 4) {
+                const std::size_t rows = count - first < 4 ? count - first : 4;
+                add_tile(left + first * inner + begin, rows, inner, size, from + j, n, vectors,
+                         out + first * n + j);
+            }
+        }
+        for (std::size_t k = 0; k < count; ++k) {
+            for (std::size_t j = whole; j < n; ++j) {
+                float sum = out[k * n + j];
+                for (std::size_t i = 0; i < size; ++i) {
+                    sum += left[k * inner + begin + i] * from[i * n + j];
+                }
+                out[k * n + j] = sum;
+            }
+        }
+    }
 }
 
 LPF_MULTIVERSION

@@ -114,8 +114,10 @@ public:
         for (std::size_t i = 0; i < active_.count; ++i) {
             const double step = steps[i * kernels::kSystems];
             const double from = code_[active_.atom[i]];
-            // Few cross: no division for the others.
-            if (from * step < 0 && std::abs(from) < length * std::abs(step)) {
+            // Few cross: no division for the others, and no branch on a sign.
+            const bool shrinks = from * step < 0;
+            const bool is_short = std::abs(from) < length * std::abs(step);
+            if (static_cast<int>(shrinks) & static_cast<int>(is_short)) {
                 length = -from / step, crossing = i;
             }
         }
