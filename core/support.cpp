@@ -47,51 +47,42 @@ struct PointArrays {
 /// What lies behind the points, so that whole vectors can be read.
 constexpr float kNowhere = 1e9F;
 
-using kernels::Floats;
+using kernels::floats_at;
 using kernels::kLanes;
-
-/// values - to, lane by lane.
-inline void subtract(const float* values, float to, Floats& out) {
-    std::memcpy(&out, values, sizeof out);
-    out -= to;
-}
-
-inline float least_of_lanes(const Floats& values) {
-    float lanes[kLanes];
-    std::memcpy(lanes, &values, sizeof lanes);
-    for (int half = kLanes / 2; half > 0; half /= 2) {
-        for (int lane = 0; lane < half; ++lane) {
-            lanes[lane] = lanes[lane + half] < lanes[lane] ? lanes[lane + half] : lanes[lane];
-        }
-    }
-    return lanes[0];
-}
 
 /// Squared distances of the nearest points to a place in the plane and to one in space. Points
 /// behind the end of a run may be among them: they are no nearer than a support distance.
-LPF_MULTIVERSION
-void find_nearest(const Runs& runs, const PointArrays& p, const float* place, const float* on_piece,
-                  float* in_plane, float* in_space) {
+template <int kWidth>
+LPF_INLINE void find_nearest_in(const Runs& runs, const PointArrays& p, const float* place,
+                                const float* on_piece, float* in_plane, float* in_space) {
+    using Floats = typename kernels::Registers<kWidth>::Floats;
     Floats least = kNowhere - Floats{};
     Floats least_in_space = least;
     for (int r = 0; r < runs.size; ++r) {
-        for (std::uint32_t i = runs.begin[r]; i < runs.end[r]; i += kLanes) {
-            Floats x, y;
-            subtract(p.x + i, place[0], x);
-            subtract(p.y + i, place[1], y);
+        for (std::uint32_t i = runs.begin[r]; i < runs.end[r]; i += kWidth) {
+            const Floats x = floats_at<kWidth>(p.x + i) - place[0];
+            const Floats y = floats_at<kWidth>(p.y + i) - place[1];
             const Floats squared = x * x + y * y;
             least = squared < least ? squared : least;
-            Floats z;
-            subtract(p.at_x + i, on_piece[0], x);
-            subtract(p.at_y + i, on_piece[1], y);
-            subtract(p.at_z + i, on_piece[2], z);
-            const Floats in_space_too = x * x + y * y + z * z;
-            least_in_space = in_space_too < least_in_space ? in_space_too : least_in_space;
+            const Floats at_x = floats_at<kWidth>(p.at_x + i) - on_piece[0];
+            const Floats at_y = floats_at<kWidth>(p.at_y + i) - on_piece[1];
+            const Floats at_z = floats_at<kWidth>(p.at_z + i) - on_piece[2];
+            const Floats squared_in_space = at_x * at_x + at_y * at_y + at_z * at_z;
+            least_in_space = squared_in_space < least_in_space ? squared_in_space : least_in_space;
         }
     }
-    *in_plane = least_of_lanes(least);
-    *in_space = least_of_lanes(least_in_space);
+    *in_plane = least[0];
+    *in_space = least_in_space[0];
+    for (int k = 1; k < kWidth; ++k) {
+        *in_plane = least[k] < *in_plane ? least[k] : *in_plane;
+        *in_space = least_in_space[k] < *in_space ? least_in_space[k] : *in_space;
+    }
 }
+
+LPF_WITH_REGISTERS(void, find_nearest,
+                   (const Runs& runs, const PointArrays& p, const float* place,
+                    const float* on_piece, float* in_plane, float* in_space),
+                   (runs, p, place, on_piece, in_plane, in_space))
 
 /// Whether the points within a distance of a place lie on more than one side of it.
 LPF_MULTIVERSION

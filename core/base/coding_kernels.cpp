@@ -7,54 +7,77 @@
 
 namespace lpf::kernels {
 
-LPF_MULTIVERSION
-void write_systems(const float* gram, std::size_t d, std::size_t n, const unsigned* atoms,
-                   const double* used, const double* right, double* systems) {
+namespace {
+
+/// Those of the systems that lie in one register: entry i of each.
+template <int kWidth>
+struct SystemsOfRegister {
+    using Doubles = typename Registers<kWidth>::DoublesAt;
+    static constexpr std::size_t kCount = kWidth / 2;
+
+    double* values;
+
+    LPF_INLINE Doubles& operator[](std::size_t i) const {
+        return *reinterpret_cast<Doubles*>(values + i * kSystems);
+    }
+    LPF_INLINE SystemsOfRegister from(std::size_t i) const { return {values + i * kSystems}; }
+};
+
+template <int kWidth>
+LPF_INLINE void write_systems_in(const float* gram, std::size_t d, std::size_t n,
+                                 const unsigned* atoms, const double* used, const double* right,
+                                 double* systems) {
+    using Doubles = typename Registers<kWidth>::DoublesAt;
+    constexpr std::size_t kCount = SystemsOfRegister<kWidth>::kCount;
     const auto at = [](const double* values, std::size_t i) -> const Doubles& {
-        return reinterpret_cast<const Doubles*>(values)[i];
+        return *reinterpret_cast<const Doubles*>(values + i * kSystems);
     };
-    for (std::size_t i = 0; i < n; ++i) {
-        const float* row[kSystems];
-        for (std::size_t s = 0; s < kSystems; ++s) row[s] = gram + atoms[i * kSystems + s] * d;
-        Doubles* const to = reinterpret_cast<Doubles*>(systems) + row_of_system(i, n);
-        for (std::size_t j = i; j < n; ++j) {
-            const unsigned* const k = atoms + j * kSystems;
-            const Doubles entries = {row[0][k[0]], row[1][k[1]], row[2][k[2]], row[3][k[3]],
-                                     row[4][k[4]], row[5][k[5]], row[6][k[6]], row[7][k[7]]};
-            to[j] = entries * (at(used, i) * at(used, j));
+    for (std::size_t first = 0; first < kSystems; first += kCount) {
+        const SystemsOfRegister<kWidth> to{systems + first};
+        for (std::size_t i = 0; i < n; ++i) {
+            const float* row[kCount];
+            for (std::size_t s = 0; s < kCount; ++s) {
+                row[s] = gram + atoms[i * kSystems + first + s] * d;
+            }
+            const std::size_t begin = row_of_system(i, n);
+            for (std::size_t j = i; j < n; ++j) {
+                const unsigned* const k = atoms + j * kSystems + first;
+                Doubles entries;
+                for (std::size_t s = 0; s < kCount; ++s) entries[s] = row[s][k[s]];
+                to[begin + j] = entries * (at(used + first, i) * at(used + first, j));
+            }
+            to[begin + n] = at(right + first, i);
         }
-        to[n] = at(right, i);
     }
 }
 
-LPF_MULTIVERSION
-void solve_definite(double* a, std::size_t n, double* x) {
-    static_assert(kSystems == kDoubleLanes);
+/// @param a, x those of one register
+template <int kWidth>
+LPF_INLINE void solve_some(SystemsOfRegister<kWidth> a, std::size_t n,
+                           SystemsOfRegister<kWidth> x) {
+    using Doubles = typename Registers<kWidth>::DoublesAt;
     constexpr double kDependent = 1e-6;  // share of its diagonal under which a pivot is rounding
-    // Its type is written out: a deduced one would be that of aligned vectors.
-    const auto row = [a, n](std::size_t i) -> Doubles* {
-        return reinterpret_cast<Doubles*>(a) + row_of_system(i, n);
-    };
-    Doubles* const inverse = reinterpret_cast<Doubles*>(x);  // of the pivots, until x is known
+    const auto row = [a, n](std::size_t i) { return a.from(row_of_system(i, n)); };
+    const SystemsOfRegister<kWidth> inverse = x;  // of the pivots, until x is known
     for (std::size_t k = 0; k < n; ++k) inverse[k] = kDependent * row(k)[k];
     // Two pivots at a time: what lies below is loaded and stored once for both.
     for (std::size_t k = 0; k < n; k += 2) {
-        const Doubles* const pivots = row(k);
-        Doubles* const next = row(k + 1);
+        const auto pivots = row(k);
+        const auto next = row(k + 1);
         inverse[k] = pivots[k] > inverse[k] ? 1 / pivots[k] : Doubles{};
         if (k + 1 == n) break;
         const Doubles factor = pivots[k + 1] * inverse[k];
         for (std::size_t j = k + 1; j <= n; ++j) next[j] -= factor * pivots[j];
         inverse[k + 1] = next[k + 1] > inverse[k + 1] ? 1 / next[k + 1] : Doubles{};
         for (std::size_t i = k + 2; i < n; i += 2) {
-            Doubles* const above = row(i);
+            const auto above = row(i);
             const Doubles p0 = pivots[i] * inverse[k], q0 = next[i] * inverse[k + 1];
             above[i] = above[i] - p0 * pivots[i] - q0 * next[i];
             if (i + 1 == n) {
                 above[n] = above[n] - p0 * pivots[n] - q0 * next[n];
                 break;
             }
-            Doubles* const below = row(i + 1);
+            const auto below = row(i + 1);
             const Doubles p1 = pivots[i + 1] * inverse[k], q1 = next[i + 1] * inverse[k + 1];
             for (std::size_t j = i + 1; j <= n; ++j) {
                 const Doubles p = pivots[j], q = next[j];
@@ -69,6 +92,22 @@ void solve_definite(double* a, std::size_t n, double* x) {
         for (std::size_t i = 0; i < k; ++i) row(i)[n] -= row(i)[k] * known;
     }
 }
+
+template <int kWidth>
+LPF_INLINE void solve_definite_in(double* a, std::size_t n, double* x) {
+    for (std::size_t s = 0; s < kSystems; s += SystemsOfRegister<kWidth>::kCount) {
+        solve_some<kWidth>({a + s}, n, {x + s});
+    }
+}
+
+}  // namespace
+
+LPF_WITH_REGISTERS(void, write_systems,
+                   (const float* gram, std::size_t d, std::size_t n, const unsigned* atoms,
+                    const double* used, const double* right, double* systems),
+                   (gram, d, n, atoms, used, right, systems))
+
+LPF_WITH_REGISTERS(void, solve_definite, (double* a, std::size_t n, double* x), (a, n, x))
 
 LPF_MULTIVERSION
 std::size_t find_moves(const float* diagonal, const float* inverse_diagonal, float threshold,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "core/base/blur.h"
 #include "core/base/multiversion.h"
@@ -75,14 +74,16 @@ void subtract_crease(const CreasedSurface& s, const float* x, const float* y, st
     }
 }
 
-LPF_MULTIVERSION
-void line_sums(const Lines& lines, const float* x, const float* y, const float* z,
-               const float* weight, std::size_t n, float* out) {
-    for (std::size_t k = 0; k < lines.count; k += kLanes) {
-        Floats normal_x, normal_y, at;
-        std::memcpy(&normal_x, lines.normal_x + k, sizeof normal_x);
-        std::memcpy(&normal_y, lines.normal_y + k, sizeof normal_y);
-        std::memcpy(&at, lines.at + k, sizeof at);
+namespace {
+
+template <int kWidth>
+LPF_INLINE void line_sums_in(const Lines& lines, const float* x, const float* y, const float* z,
+                             const float* weight, std::size_t n, float* out) {
+    using Floats = typename Registers<kWidth>::Floats;
+    for (std::size_t k = 0; k < lines.count; k += kWidth) {
+        const Floats normal_x = floats_at<kWidth>(lines.normal_x + k);
+        const Floats normal_y = floats_at<kWidth>(lines.normal_y + k);
+        const Floats at = floats_at<kWidth>(lines.at + k);
         Floats sums[5] = {};
         for (std::size_t i = 0; i < n; ++i) {
             const Floats signed_distance = normal_x * x[i] + normal_y * y[i] - at;
@@ -94,12 +95,18 @@ void line_sums(const Lines& lines, const float* x, const float* y, const float* 
             sums[3] += weighted * d;
             sums[4] += weighted * z[i];
         }
-        for (int row = 0; row < 5; ++row) {
-            std::memcpy(out + static_cast<std::size_t>(row) * lines.count + k, &sums[row],
-                        sizeof sums[row]);
+        for (std::size_t row = 0; row < 5; ++row) {
+            floats_at<kWidth>(out + row * lines.count + k) = sums[row];
         }
     }
 }
+
+}  // namespace
+
+LPF_WITH_REGISTERS(void, line_sums,
+                   (const Lines& lines, const float* x, const float* y, const float* z,
+                    const float* weight, std::size_t n, float* out),
+                   (lines, x, y, z, weight, n, out))
 
 void crease_moments(const CreasedSurface& surface, const float* x, const float* y, const float* z,
                     const float* off, float limit, std::size_t n, std::size_t stride, double* out) {

@@ -7,58 +7,6 @@
 #include "core/base/multiversion.h"
 
 namespace lpf::kernels {
-namespace {
-
-inline const FloatsAt& lanes_at(const float* from) {
-    return *reinterpret_cast<const FloatsAt*>(from);
-}
-
-inline FloatsAt& lanes_at(float* from) { return *reinterpret_cast<FloatsAt*>(from); }
-
-inline float sum_of_lanes(const Floats& values) {
-    float lanes[kLanes];
-    std::memcpy(lanes, &values, sizeof lanes);
-    float sum = 0.0F;
-#pragma omp simd reduction(+ : sum)
-    for (int lane = 0; lane < kLanes; ++lane) sum += lanes[lane];
-    return sum;
-}
-
-/// out += left right, for four rows (or fewer) of left and two vectors (or one) of columns: so many
-/// sums that the adders are busy, and so few that they stay in registers.
-/// @param inner values of a row of left that are used, of `row` that there are
-[[gnu::always_inline]] inline void add_tile(const float* left, std::size_t rows, std::size_t row,
-                                            std::size_t inner, const float* right, std::size_t n,
-                                            std::size_t vectors, float* out) {
-    const float* const a0 = left;
-    const float* const a1 = left + (1 % rows) * row;
-    const float* const a2 = left + (2 % rows) * row;
-    const float* const a3 = left + (3 % rows) * row;
-    const std::size_t next = (vectors - 1) * kLanes;
-    Floats sums[4][2];
-    for (std::size_t k = 0; k < 4; ++k) {
-        sums[k][0] = lanes_at(out + (k % rows) * n);
-        sums[k][1] = lanes_at(out + (k % rows) * n + next);
-    }
-    Floats s0 = sums[0][0], s1 = sums[1][0], s2 = sums[2][0], s3 = sums[3][0];
-    Floats t0 = sums[0][1], t1 = sums[1][1], t2 = sums[2][1], t3 = sums[3][1];
-    for (std::size_t i = 0; i < inner; ++i) {
-        const Floats s = lanes_at(right + i * n);
-        const Floats t = lanes_at(right + i * n + next);
-        s0 += a0[i] * s, t0 += a0[i] * t;
-        s1 += a1[i] * s, t1 += a1[i] * t;
-        s2 += a2[i] * s, t2 += a2[i] * t;
-        s3 += a3[i] * s, t3 += a3[i] * t;
-    }
-    const Floats of_rows[4][2] = {{s0, t0}, {s1, t1}, {s2, t2}, {s3, t3}};
-    for (std::size_t k = 0; k < rows; ++k) {
-        lanes_at(out + k * n) = of_rows[k][0];
-        lanes_at(out + k * n + next) = of_rows[k][1];
-    }
-}
-
-}  // namespace
-
 LPF_MULTIVERSION
 float dot(const float* a, const float* b, std::size_t n) {
     float sum = 0.0F;
@@ -75,54 +23,62 @@ float squared_distance(const float* a, const float* b, std::size_t n) {
     return sum;
 }
 
-LPF_MULTIVERSION
-void multiply_rows(const float* rows, std::size_t row_count, std::size_t n, const float* v,
-                   float* out) {
-    // Eight rows at a time share the loads of v, and are sums enough to keep the adders busy.
-    constexpr std::size_t kRows = 8;
-    const std::size_t whole = n - n % kLanes;
-    for (std::size_t first = 0; first < row_count; first += kRows) {
-        const std::size_t count = row_count - first < kRows ? row_count - first : kRows;
-        const float* row[kRows];
-        for (std::size_t k = 0; k < kRows; ++k) row[k] = rows + (first + k % count) * n;
-        Floats s0{}, s1{}, s2{}, s3{}, s4{}, s5{}, s6{}, s7{};
-        for (std::size_t i = 0; i < whole; i += kLanes) {
-            const FloatsAt& with = lanes_at(v + i);
-            s0 += lanes_at(row[0] + i) * with, s1 += lanes_at(row[1] + i) * with;
-            s2 += lanes_at(row[2] + i) * with, s3 += lanes_at(row[3] + i) * with;
-            s4 += lanes_at(row[4] + i) * with, s5 += lanes_at(row[5] + i) * with;
-            s6 += lanes_at(row[6] + i) * with, s7 += lanes_at(row[7] + i) * with;
-        }
-        const Floats sums[kRows] = {s0, s1, s2, s3, s4, s5, s6, s7};
-        for (std::size_t k = 0; k < count; ++k) {
-            float sum = sum_of_lanes(sums[k]);
-            for (std::size_t i = whole; i < n; ++i) sum += row[k][i] * v[i];
-            out[first + k] = sum;
-        }
-    }
-}
-
 void multiply(const float* left, std::size_t count, std::size_t inner, const float* right,
               std::size_t n, float* out) {
     std::fill_n(out, count * n, 0.0F);
     add_product(left, count, inner, right, n, out);
 }
 
-LPF_MULTIVERSION
-void add_product(const float* left, std::size_t count, std::size_t inner, const float* right,
-                 std::size_t n, float* out) {
+namespace {
+
+/// out += left right, for four rows (or fewer) of left and two registers (or one) of columns: so
+/// many sums that the adders are busy, and so few that they stay in registers.
+/// @param inner values of a row of left that are used, of `row` that there are
+template <int kWidth>
+LPF_INLINE void add_tile(const float* left, std::size_t rows, std::size_t row, std::size_t inner,
+                         const float* right, std::size_t n, std::size_t registers, float* out) {
+    using Floats = typename Registers<kWidth>::Floats;
+    const float* const a0 = left;
+    const float* const a1 = left + (1 % rows) * row;
+    const float* const a2 = left + (2 % rows) * row;
+    const float* const a3 = left + (3 % rows) * row;
+    float* to[4];
+    for (std::size_t k = 0; k < 4; ++k) to[k] = out + (k % rows) * n;
+    const std::size_t next = (registers - 1) * kWidth;
+    Floats s0 = floats_at<kWidth>(to[0]), t0 = floats_at<kWidth>(to[0] + next);
+    Floats s1 = floats_at<kWidth>(to[1]), t1 = floats_at<kWidth>(to[1] + next);
+    Floats s2 = floats_at<kWidth>(to[2]), t2 = floats_at<kWidth>(to[2] + next);
+    Floats s3 = floats_at<kWidth>(to[3]), t3 = floats_at<kWidth>(to[3] + next);
+    for (std::size_t i = 0; i < inner; ++i) {
+        const Floats s = floats_at<kWidth>(right + i * n);
+        const Floats t = floats_at<kWidth>(right + i * n + next);
+        s0 += a0[i] * s, t0 += a0[i] * t;
+        s1 += a1[i] * s, t1 += a1[i] * t;
+        s2 += a2[i] * s, t2 += a2[i] * t;
+        s3 += a3[i] * s, t3 += a3[i] * t;
+    }
+    const Floats sums[4][2] = {{s0, t0}, {s1, t1}, {s2, t2}, {s3, t3}};
+    for (std::size_t k = 0; k < rows; ++k) {
+        floats_at<kWidth>(to[k]) = sums[k][0];
+        floats_at<kWidth>(to[k] + next) = sums[k][1];
+    }
+}
+
+template <int kWidth>
+LPF_INLINE void add_product_in(const float* left, std::size_t count, std::size_t inner,
+                               const float* right, std::size_t n, float* out) {
     // Columns of so many rows of right stay in the first cache while all of left passes by.
     constexpr std::size_t kInner = 128;
-    const std::size_t whole = n - n % kLanes;
+    const std::size_t whole = n - n % kWidth;
     for (std::size_t begin = 0; begin < inner; begin += kInner) {
         const std::size_t size = inner - begin < kInner ? inner - begin : kInner;
         const float* const from = right + begin * n;
-        for (std::size_t j = 0; j < whole; j += 2 * kLanes) {
-            const std::size_t vectors = j + kLanes < whole ? 2 : 1;
+        for (std::size_t j = 0; j < whole; j += 2 * kWidth) {
+            const std::size_t registers = j + kWidth < whole ? 2 : 1;
             for (std::size_t first = 0; first < count; first += 4) {
                 const std::size_t rows = count - first < 4 ? count - first : 4;
-                add_tile(left + first * inner + begin, rows, inner, size, from + j, n, vectors,
-                         out + first * n + j);
+                add_tile<kWidth>(left + first * inner + begin, rows, inner, size, from + j, n,
+                                 registers, out + first * n + j);
             }
         }
         for (std::size_t k = 0; k < count; ++k) {
@@ -137,37 +93,34 @@ void add_product(const float* left, std::size_t count, std::size_t inner, const 
     }
 }
 
-LPF_MULTIVERSION
-void add_scaled(float scale, const float* in, float* out, std::size_t n) {
-#pragma omp simd
-    for (std::size_t i = 0; i < n; ++i) out[i] += scale * in[i];
-}
-
-LPF_MULTIVERSION
-void combine_rows(const float* rows, std::size_t stride, std::size_t n, const unsigned* row,
-                  const float* coefficient, std::size_t count, float* out) {
+template <int kWidth>
+LPF_INLINE void combine_rows_in(const float* rows, std::size_t stride, std::size_t n,
+                                const unsigned* row, const float* coefficient, std::size_t count,
+                                float* out) {
+    using Floats = typename Registers<kWidth>::Floats;
     // A block of outputs stays in registers while all rows pass over it.
-    constexpr std::size_t kVectors = 4;
-    constexpr std::size_t kBlock = kVectors * kLanes;
+    constexpr std::size_t kBlock = 4 * kWidth;
     std::size_t begin = 0;
     for (; begin + kBlock <= n; begin += kBlock) {
         Floats s0{}, s1{}, s2{}, s3{};
         for (std::size_t k = 0; k < count; ++k) {
-            const FloatsAt* const from = &lanes_at(rows + row[k] * stride + begin);
-            s0 += coefficient[k] * from[0];
-            s1 += coefficient[k] * from[1];
-            s2 += coefficient[k] * from[2];
-            s3 += coefficient[k] * from[3];
+            const float* const from = rows + row[k] * stride + begin;
+            s0 += coefficient[k] * floats_at<kWidth>(from);
+            s1 += coefficient[k] * floats_at<kWidth>(from + kWidth);
+            s2 += coefficient[k] * floats_at<kWidth>(from + 2 * kWidth);
+            s3 += coefficient[k] * floats_at<kWidth>(from + 3 * kWidth);
         }
-        FloatsAt* const to = &lanes_at(out + begin);
-        to[0] = s0, to[1] = s1, to[2] = s2, to[3] = s3;
+        floats_at<kWidth>(out + begin) = s0;
+        floats_at<kWidth>(out + begin + kWidth) = s1;
+        floats_at<kWidth>(out + begin + 2 * kWidth) = s2;
+        floats_at<kWidth>(out + begin + 3 * kWidth) = s3;
     }
-    for (; begin + kLanes <= n; begin += kLanes) {
+    for (; begin + kWidth <= n; begin += kWidth) {
         Floats sum{};
         for (std::size_t k = 0; k < count; ++k) {
-            sum += coefficient[k] * lanes_at(rows + row[k] * stride + begin);
+            sum += coefficient[k] * floats_at<kWidth>(rows + row[k] * stride + begin);
         }
-        lanes_at(out + begin) = sum;
+        floats_at<kWidth>(out + begin) = sum;
     }
     for (; begin < n; ++begin) {
         float sum = 0;
@@ -175,6 +128,24 @@ void combine_rows(const float* rows, std::size_t stride, std::size_t n, const un
             sum += coefficient[k] * rows[row[k] * stride + begin];
         out[begin] = sum;
     }
+}
+
+}  // namespace
+
+LPF_WITH_REGISTERS(void, add_product,
+                   (const float* left, std::size_t count, std::size_t inner, const float* right,
+                    std::size_t n, float* out),
+                   (left, count, inner, right, n, out))
+
+LPF_WITH_REGISTERS(void, combine_rows,
+                   (const float* rows, std::size_t stride, std::size_t n, const unsigned* row,
+                    const float* coefficient, std::size_t count, float* out),
+                   (rows, stride, n, row, coefficient, count, out))
+
+LPF_MULTIVERSION
+void add_scaled(float scale, const float* in, float* out, std::size_t n) {
+#pragma omp simd
+    for (std::size_t i = 0; i < n; ++i) out[i] += scale * in[i];
 }
 
 LPF_MULTIVERSION

@@ -12,10 +12,6 @@ float dot(const float* a, const float* b, std::size_t n);
 /// Sum of (a[i] - b[i])^2.
 float squared_distance(const float* a, const float* b, std::size_t n);
 
-/// out[k] = <row k of rows, v>: rows x n, row-major, against one vector of n.
-void multiply_rows(const float* rows, std::size_t row_count, std::size_t n, const float* v,
-                   float* out);
-
 /// out = left right, for count x inner and inner x n values, row-major.
 void multiply(const float* left, std::size_t count, std::size_t inner, const float* right,
               std::size_t n, float* out);

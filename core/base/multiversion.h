@@ -10,23 +10,55 @@
 #define LPF_MULTIVERSION
 #endif
 
+// For loops that name the registers they work in: a function `<name>_in` over the width of these
+// (floats in a register) becomes `name`, compiled for each instruction set with registers of its
+// own. What is wider than a register would be kept in memory. All of it is inlined: a vector that
+// is an argument would be passed in ways that differ between instruction sets.
+#if defined(LPF_HAS_MULTIVERSION)
+#define LPF_WITH_REGISTERS(result, name, parameters, arguments)               \
+    namespace {                                                               \
+    __attribute__((target("arch=x86-64-v4"))) result name##_here parameters { \
+        return name##_in<16> arguments;                                       \
+    }                                                                         \
+    __attribute__((target("arch=x86-64-v3"))) result name##_here parameters { \
+        return name##_in<8> arguments;                                        \
+    }                                                                         \
+    __attribute__((target("default"))) result name##_here parameters {        \
+        return name##_in<4> arguments;                                        \
+    }                                                                         \
+    }                                                                         \
+    result name parameters { return name##_here arguments; }
+#else
+#define LPF_WITH_REGISTERS(result, name, parameters, arguments) \
+    result name parameters { return name##_in<4> arguments; }
+#endif
+#define LPF_INLINE [[gnu::always_inline]] inline
+
 namespace lpf::kernels {
 
-// For loops with choices that the compiler would make branches of. A lane is a float of any vector
-// unit: the compiler cuts these into as many registers as it takes.
+// Most floats of a register: arrays that are read by whole registers are filled up to these.
 inline constexpr int kLanes = 16;
-typedef float Floats __attribute__((vector_size(4 * kLanes)));
-typedef int Ints __attribute__((vector_size(4 * kLanes)));
 
-// The same lanes in arrays, wherever they begin. Copies of them in arrays of vectors would be
-// stored, and never read.
-typedef float FloatsAt __attribute__((vector_size(4 * kLanes), aligned(4), may_alias));
+// A register of so many floats, or as many bytes of others; those in arrays begin anywhere.
+template <int kWidth>
+struct Registers {
+    typedef float Floats __attribute__((vector_size(4 * kWidth)));
+    typedef int Ints __attribute__((vector_size(4 * kWidth)));
+    typedef float FloatsAt __attribute__((vector_size(4 * kWidth), aligned(4), may_alias));
+    typedef double DoublesAt __attribute__((vector_size(4 * kWidth), aligned(8), may_alias));
+};
+
+template <int kWidth>
+LPF_INLINE const typename Registers<kWidth>::FloatsAt& floats_at(const float* from) {
+    return *reinterpret_cast<const typename Registers<kWidth>::FloatsAt*>(from);
+}
+
+template <int kWidth>
+LPF_INLINE typename Registers<kWidth>::FloatsAt& floats_at(float* to) {
+    return *reinterpret_cast<typename Registers<kWidth>::FloatsAt*>(to);
+}
 
 // Four values that lie together in memory, wherever they begin.
 typedef float FourFloats __attribute__((vector_size(16), aligned(4), may_alias));
-
-// As many bytes of doubles; for arrays that are laid out in lanes, wherever they begin.
-inline constexpr int kDoubleLanes = 8;
-typedef double Doubles __attribute__((vector_size(8 * kDoubleLanes), aligned(8), may_alias));
 
 }  // namespace lpf::kernels

@@ -1,7 +1,6 @@
 #include "core/base/probing_kernels.h"
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "core/base/multiversion.h"
@@ -32,29 +31,76 @@ void convolve(const float* in, float* out, std::size_t n, int stride, const floa
     }
 }
 
-LPF_MULTIVERSION
-void nearest_to_nodes(const float* x, const float* y, const float* z, std::size_t n, float first_x,
-                      float step, float row_y, float squared[16], float* out, std::size_t stride) {
-    Floats node;
-    for (int k = 0; k < kLanes; ++k) node[k] = first_x + step * static_cast<float>(k);
+namespace {
+
+template <int kWidth>
+LPF_INLINE void nearest_to_nodes_in(const float* x, const float* y, const float* z, std::size_t n,
+                                    float first_x, float step, float row_y, float squared[16],
+                                    float* out, std::size_t stride) {
+    using Floats = typename Registers<kWidth>::Floats;
+    using Ints = typename Registers<kWidth>::Ints;
+    for (int first = 0; first < 16; first += kWidth) {
+        Floats node;
+        for (int k = 0; k < kWidth; ++k) node[k] = first_x + step * static_cast<float>(first + k);
+        Floats nearest = std::numeric_limits<float>::infinity() - Floats{};
+        // What is kept of a point are its coordinates; a number would have to be looked up.
+        Floats its_x = node, its_y = row_y - Floats{}, its_z = Floats{};
+        for (std::size_t i = 0; i < n; ++i) {
+            const Floats dx = x[i] - node;
+            const float dy = y[i] - row_y;
+            const Floats d = dx * dx + dy * dy;
+            const Ints is_nearer = d < nearest;
+            its_x = is_nearer ? x[i] - Floats{} : its_x;
+            its_y = is_nearer ? y[i] - Floats{} : its_y;
+            its_z = is_nearer ? z[i] - Floats{} : its_z;
+            nearest = is_nearer ? d : nearest;
+        }
+        floats_at<kWidth>(out + first) = its_x - node;
+        floats_at<kWidth>(out + stride + first) = its_y - row_y;
+        floats_at<kWidth>(out + 2 * stride + first) = its_z;
+        floats_at<kWidth>(squared + first) = nearest;
+    }
+}
+
+template <int kWidth>
+LPF_INLINE std::size_t nearest_to_place_in(const float* x, const float* y, std::size_t n,
+                                           float at_x, float at_y) {
+    using Floats = typename Registers<kWidth>::Floats;
+    using Ints = typename Registers<kWidth>::Ints;
     Floats nearest = std::numeric_limits<float>::infinity() - Floats{};
-    // What is kept of a point are its coordinates; a number would have to be looked up.
-    Floats its_x = node, its_y = row_y - Floats{}, its_z = Floats{};
-    for (std::size_t i = 0; i < n; ++i) {
-        const Floats dx = x[i] - node;
-        const float dy = y[i] - row_y;
+    Ints who = static_cast<int>(n) - Ints{};
+    Ints number;
+    for (int k = 0; k < kWidth; ++k) number[k] = k;
+    for (std::size_t i = 0; i < n; i += kWidth) {
+        const Floats dx = floats_at<kWidth>(x + i) - at_x;
+        const Floats dy = floats_at<kWidth>(y + i) - at_y;
         const Floats d = dx * dx + dy * dy;
         const Ints is_nearer = d < nearest;
-        its_x = is_nearer ? x[i] - Floats{} : its_x;
-        its_y = is_nearer ? y[i] - Floats{} : its_y;
-        its_z = is_nearer ? z[i] - Floats{} : its_z;
+        who = is_nearer ? number : who;
         nearest = is_nearer ? d : nearest;
+        number += kWidth;
     }
-    *reinterpret_cast<FloatsAt*>(out) = its_x - node;
-    *reinterpret_cast<FloatsAt*>(out + stride) = its_y - row_y;
-    *reinterpret_cast<FloatsAt*>(out + 2 * stride) = its_z;
-    std::memcpy(squared, &nearest, sizeof nearest);
+    std::size_t best = n;
+    float least = std::numeric_limits<float>::infinity();
+    for (int k = 0; k < kWidth; ++k) {
+        const auto point = static_cast<std::size_t>(who[k]);
+        if (nearest[k] > least || (nearest[k] == least && point >= best)) continue;
+        least = nearest[k];
+        best = point;
+    }
+    return best;
 }
+
+}  // namespace
+
+LPF_WITH_REGISTERS(void, nearest_to_nodes,
+                   (const float* x, const float* y, const float* z, std::size_t n, float first_x,
+                    float step, float row_y, float squared[16], float* out, std::size_t stride),
+                   (x, y, z, n, first_x, step, row_y, squared, out, stride))
+
+LPF_WITH_REGISTERS(std::size_t, nearest_to_place,
+                   (const float* x, const float* y, std::size_t n, float at_x, float at_y),
+                   (x, y, n, at_x, at_y))
 
 LPF_MULTIVERSION
 void add_to_cells(const float* x, const float* y, const float* z, std::size_t n, float step,
@@ -81,36 +127,6 @@ void add_to_cells(const float* x, const float* y, const float* z, std::size_t n,
             reinterpret_cast<FourFloats*>(cells)[cell[i]] += point;
         }
     }
-}
-
-LPF_MULTIVERSION
-std::size_t nearest_to_place(const float* x, const float* y, std::size_t n, float at_x,
-                             float at_y) {
-    Floats nearest = std::numeric_limits<float>::infinity() - Floats{};
-    Ints who = static_cast<int>(n) - Ints{};
-    Ints number;
-    for (int k = 0; k < kLanes; ++k) number[k] = k;
-    for (std::size_t i = 0; i < n; i += kLanes) {
-        Floats dx, dy;
-        std::memcpy(&dx, x + i, sizeof dx);
-        std::memcpy(&dy, y + i, sizeof dy);
-        dx -= at_x;
-        dy -= at_y;
-        const Floats d = dx * dx + dy * dy;
-        const Ints is_nearer = d < nearest;
-        who = is_nearer ? number : who;
-        nearest = is_nearer ? d : nearest;
-        number += kLanes;
-    }
-    std::size_t best = n;
-    float least = std::numeric_limits<float>::infinity();
-    for (int k = 0; k < kLanes; ++k) {
-        const auto point = static_cast<std::size_t>(who[k]);
-        if (nearest[k] > least || (nearest[k] == least && point >= best)) continue;
-        least = nearest[k];
-        best = point;
-    }
-    return best;
 }
 
 }  // namespace lpf::kernels

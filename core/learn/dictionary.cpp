@@ -66,7 +66,10 @@ std::vector<float> Dictionary::gram() const {
     const auto d = static_cast<std::size_t>(atoms_);
     std::vector<float> gram(d * d);
     for (std::size_t k = 0; k < d; ++k) {
-        kernels::multiply_rows(data(), d, stride_, data() + k * stride_, gram.data() + k * d);
+        for (std::size_t l = 0; l <= k; ++l) {
+            gram[k * d + l] = gram[l * d + k] =
+                kernels::dot(data() + k * stride_, data() + l * stride_, stride_);
+        }
     }
     return gram;
 }

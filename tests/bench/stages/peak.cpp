@@ -2,31 +2,37 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstring>
 
 #include "core/base/multiversion.h"
 
 namespace lpf::bench {
 
-LPF_MULTIVERSION
-float multiply_and_add(std::size_t rounds, float factor, float summand) {
+namespace {
+
+template <int kWidth>
+LPF_INLINE float multiply_and_add_in(std::size_t rounds, float factor, float summand) {
     // Twelve independent sums: as many as two units with a latency of six keep busy.
-    using kernels::Floats;
+    using Floats = typename kernels::Registers<kWidth>::Floats;
     const Floats one = 1.0F - Floats{};  // all start elsewhere, so that none is left out as equal
     Floats s0 = 0 * one, s1 = 1 * one, s2 = 2 * one, s3 = 3 * one, s4 = 4 * one, s5 = 5 * one;
     Floats s6 = 6 * one, s7 = 7 * one, s8 = 8 * one, s9 = 9 * one, s10 = 10 * one, s11 = 11 * one;
     const Floats by = factor - Floats{};
-    for (std::size_t i = 0; i < rounds; ++i) {
+    for (std::size_t i = 0; i < rounds * (16 / kWidth); ++i) {
         s0 = s0 * by + summand, s1 = s1 * by + summand, s2 = s2 * by + summand;
         s3 = s3 * by + summand, s4 = s4 * by + summand, s5 = s5 * by + summand;
         s6 = s6 * by + summand, s7 = s7 * by + summand, s8 = s8 * by + summand;
         s9 = s9 * by + summand, s10 = s10 * by + summand, s11 = s11 * by + summand;
     }
     const Floats sum = s0 + s1 + s2 + s3 + s4 + s5 + s6 + s7 + s8 + s9 + s10 + s11;
-    float lanes[kernels::kLanes];
-    std::memcpy(lanes, &sum, sizeof lanes);
-    return *std::max_element(lanes, lanes + kernels::kLanes);
+    float largest = sum[0];
+    for (int k = 1; k < kWidth; ++k) largest = sum[k] > largest ? sum[k] : largest;
+    return largest;
 }
+
+}  // namespace
+
+LPF_WITH_REGISTERS(float, multiply_and_add, (std::size_t rounds, float factor, float summand),
+                   (rounds, factor, summand))
 
 double peak_rate() {
     static const double kRate = [] {

@@ -40,19 +40,6 @@ TEST_P(KernelsOf, DotAndSquaredDistanceAgreeWithDoubles) {
     EXPECT_NEAR(kernels::squared_distance(a.data(), b.data(), n), squared, 10 * tolerance);
 }
 
-TEST_P(KernelsOf, MultiplyRowsIsOneDotProductARow) {
-    for (const std::size_t rows : {0U, 1U, 3U, 4U, 7U, 8U}) {
-        const Floats matrix = random_floats(rows * n, 3);
-        const Floats v = random_floats(n, 4);
-        Floats out(rows + 1, 77.0F);
-        kernels::multiply_rows(matrix.data(), rows, n, v.data(), out.data());
-        for (std::size_t k = 0; k < rows; ++k) {
-            EXPECT_NEAR(out[k], kernels::dot(matrix.data() + k * n, v.data(), n), 2 * tolerance);
-        }
-        EXPECT_EQ(out[rows], 77.0F) << "wrote past the end";
-    }
-}
-
 TEST_P(KernelsOf, CombineRowsAddsUpSomeRows) {
     const std::size_t stride = n + 3;
     const Floats rows = random_floats(4 * stride, 3);
