@@ -2,7 +2,7 @@
 #include "core/base/kernels.h"
 #include "core/base/multiversion.h"
 
-#if defined(LPF_HAS_MULTIVERSION)
+#if defined(LPF_HAS_AVX512)
 #include <immintrin.h>
 #endif
 
@@ -21,7 +21,7 @@ struct Run {
     unsigned* out_index;
 };
 
-#if defined(LPF_HAS_MULTIVERSION)
+#if defined(LPF_HAS_AVX512)
 
 // The compiler makes no use of the instruction that packs the lanes that are kept.
 #define LPF_WIDE __attribute__((target("arch=x86-64-v4")))

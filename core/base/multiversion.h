@@ -4,8 +4,21 @@
 // the plain loops are compiled once.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(LPF_NO_MULTIVERSION)
 #define LPF_HAS_MULTIVERSION
+#if !defined(LPF_NO_AVX512)
+#define LPF_HAS_AVX512
+#endif
+#endif
+
+#if defined(LPF_HAS_AVX512)
 #define LPF_MULTIVERSION \
     __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
+#define LPF_WITH_WIDEST_REGISTERS(result, name, parameters, arguments)        \
+    __attribute__((target("arch=x86-64-v4"))) result name##_here parameters { \
+        return name##_in<16> arguments;                                       \
+    }
+#elif defined(LPF_HAS_MULTIVERSION)
+#define LPF_MULTIVERSION __attribute__((target_clones("default", "arch=x86-64-v3")))
+#define LPF_WITH_WIDEST_REGISTERS(result, name, parameters, arguments)
 #else
 #define LPF_MULTIVERSION
 #endif
@@ -17,9 +30,7 @@
 #if defined(LPF_HAS_MULTIVERSION)
 #define LPF_WITH_REGISTERS(result, name, parameters, arguments)               \
     namespace {                                                               \
-    __attribute__((target("arch=x86-64-v4"))) result name##_here parameters { \
-        return name##_in<16> arguments;                                       \
-    }                                                                         \
+    LPF_WITH_WIDEST_REGISTERS(result, name, parameters, arguments)            \
     __attribute__((target("arch=x86-64-v3"))) result name##_here parameters { \
         return name##_in<8> arguments;                                        \
     }                                                                         \
