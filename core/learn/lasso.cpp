@@ -73,7 +73,7 @@ private:
     [[nodiscard]] double* right() { return room_[n_].value; }
 
     std::size_t n_ = 0;
-    std::unique_ptr<Side[]> room_;
+    std::unique_ptr<Side[]> room_;  // what is used, right-hand sides, unknowns, the systems
     std::unique_ptr<unsigned[]> numbers_;
 };
 
@@ -143,6 +143,7 @@ public:
         return {threshold_, active_.atom.data(), active_.count, code_, residual_.data()};
     }
 
+    /// Lists the non-zero coefficients instead.
     void find_non_zero() {
         active_.count = 0;
         for (std::size_t k = 0; k < atoms_->d; ++k) {
@@ -211,7 +212,7 @@ int descend(const Atoms& atoms, std::span<const LassoTask> tasks, float toleranc
     Systems systems(atoms.d);
     std::span<Descent*> running = std::span(all).first(tasks.size());
     for (int sweeps = 0; sweeps < max_sweeps;) {
-        for (int i = 0; i < kSweepsBeforeStep; ++i, ++sweeps) {
+        for (int i = 0; i < kSweepsBeforeStep && sweeps < max_sweeps; ++i, ++sweeps) {
             running = sweep(atoms, running, tolerance);
             if (running.empty()) return sweeps;
         }
