@@ -52,28 +52,32 @@ using kernels::kLanes;
 
 /// Squared distances of the nearest points to a place in the plane and to one in space. Points
 /// behind the end of a run may be among them: they are no nearer than a support distance.
+/// Runs are short: of a wider register most would be wasted.
+constexpr int kPointsOfRun = 8;
+
 template <int kWidth>
 LPF_INLINE void find_nearest_in(const Runs& runs, const PointArrays& p, const float* place,
                                 const float* on_piece, float* in_plane, float* in_space) {
-    using Floats = typename kernels::Registers<kWidth>::Floats;
+    constexpr int kUsed = std::min(kWidth, kPointsOfRun);
+    using Floats = typename kernels::Registers<kUsed>::Floats;
     Floats least = kNowhere - Floats{};
     Floats least_in_space = least;
     for (int r = 0; r < runs.size; ++r) {
-        for (std::uint32_t i = runs.begin[r]; i < runs.end[r]; i += kWidth) {
-            const Floats x = floats_at<kWidth>(p.x + i) - place[0];
-            const Floats y = floats_at<kWidth>(p.y + i) - place[1];
+        for (std::uint32_t i = runs.begin[r]; i < runs.end[r]; i += kUsed) {
+            const Floats x = floats_at<kUsed>(p.x + i) - place[0];
+            const Floats y = floats_at<kUsed>(p.y + i) - place[1];
             const Floats squared = x * x + y * y;
             least = squared < least ? squared : least;
-            const Floats at_x = floats_at<kWidth>(p.at_x + i) - on_piece[0];
-            const Floats at_y = floats_at<kWidth>(p.at_y + i) - on_piece[1];
-            const Floats at_z = floats_at<kWidth>(p.at_z + i) - on_piece[2];
+            const Floats at_x = floats_at<kUsed>(p.at_x + i) - on_piece[0];
+            const Floats at_y = floats_at<kUsed>(p.at_y + i) - on_piece[1];
+            const Floats at_z = floats_at<kUsed>(p.at_z + i) - on_piece[2];
             const Floats squared_in_space = at_x * at_x + at_y * at_y + at_z * at_z;
             least_in_space = squared_in_space < least_in_space ? squared_in_space : least_in_space;
         }
     }
     *in_plane = least[0];
     *in_space = least_in_space[0];
-    for (int k = 1; k < kWidth; ++k) {
+    for (int k = 1; k < kUsed; ++k) {
         *in_plane = least[k] < *in_plane ? least[k] : *in_plane;
         *in_space = least_in_space[k] < *in_space ? least_in_space[k] : *in_space;
     }

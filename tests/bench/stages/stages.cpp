@@ -244,7 +244,7 @@ void ProbeCodePose(benchmark::State& state) {
     const double stride = static_cast<double>(s.analysis->dictionary.stride());
     const double m = s.fields->pattern().size();
     const double gather = 8 * 2 * points;  // as many more are looked at
-    const double probe = 15 * points + 3 * m + 15 * 5 * 16 * 5 * points / 15;
+    const double probe = 15 * points + 3 * m + 15 * 3 * 16 * 5 * points / 15;  // three rows of 15
     const double correlate = 2 * 32 * stride;
     const double lasso = 2 * (used * used * used / 3 + 2 * used * 32) + 3 * 2 * 32 * used;
     const double decode = 2 * used * stride;
