@@ -37,9 +37,11 @@ std::vector<std::uint32_t> nearest_sources(const Points& cloud, const Points& po
     std::vector<std::uint32_t> source(n);
     std::vector<std::vector<std::uint32_t>> far_off(chunk_count(n, kQueriesPerChunk));
     {
-        const double extent = bounding_box(cloud, execution).sizes().maxCoeff();
         double cell = cell_of_some_points(cloud, kPointsOfCell, execution);
-        if (!(cell > 0)) cell = extent > 0 ? extent : 1.0;
+        if (!(cell > 0)) {
+            const double extent = bounding_box(cloud, execution).sizes().maxCoeff();
+            cell = extent > 0 ? extent : 1.0;
+        }
         const PointGrid grid(cloud, cell, execution);
         parallel_for(execution, "attributes", "points", n, kQueriesPerChunk,
                      [&](std::size_t begin, std::size_t end, std::size_t chunk) {

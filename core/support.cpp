@@ -50,11 +50,11 @@ constexpr float kNowhere = 1e9F;
 using kernels::floats_at;
 using kernels::kLanes;
 
-/// Squared distances of the nearest points to a place in the plane and to one in space. Points
-/// behind the end of a run may be among them: they are no nearer than a support distance.
 /// Runs are short: of a wider register most would be wasted.
 constexpr int kPointsOfRun = 8;
 
+/// Squared distances of the nearest points to a place in the plane and to one in space. Points
+/// behind the end of a run may be among them: they are no nearer than a support distance.
 template <int kWidth>
 LPF_INLINE void find_nearest_in(const Runs& runs, const PointArrays& p, const float* place,
                                 const float* on_piece, float* in_plane, float* in_space) {

@@ -18,7 +18,7 @@ struct SystemsOfRegister {
     double* values;
 
     LPF_INLINE Doubles& operator[](std::size_t i) const {
-        return *reinterpret_cast<Doubles*>(values + i * kSystems);
+        return doubles_at<kWidth>(values + i * kSystems);
     }
     LPF_INLINE SystemsOfRegister from(std::size_t i) const { return {values + i * kSystems}; }
 };
@@ -29,9 +29,6 @@ LPF_INLINE void write_systems_in(const float* gram, std::size_t d, std::size_t n
                                  double* systems) {
     using Doubles = typename Registers<kWidth>::DoublesAt;
     constexpr std::size_t kCount = SystemsOfRegister<kWidth>::kCount;
-    const auto at = [](const double* values, std::size_t i) -> const Doubles& {
-        return *reinterpret_cast<const Doubles*>(values + i * kSystems);
-    };
     for (std::size_t first = 0; first < kSystems; first += kCount) {
         const SystemsOfRegister<kWidth> to{systems + first};
         for (std::size_t i = 0; i < n; ++i) {
@@ -40,13 +37,15 @@ LPF_INLINE void write_systems_in(const float* gram, std::size_t d, std::size_t n
                 row[s] = gram + atoms[i * kSystems + first + s] * d;
             }
             const std::size_t begin = row_of_system(i, n);
+            const Doubles row_used = doubles_at<kWidth>(used + i * kSystems + first);
             for (std::size_t j = i; j < n; ++j) {
                 const unsigned* const k = atoms + j * kSystems + first;
+                const Doubles column_used = doubles_at<kWidth>(used + j * kSystems + first);
                 Doubles entries;
                 for (std::size_t s = 0; s < kCount; ++s) entries[s] = row[s][k[s]];
-                to[begin + j] = entries * (at(used + first, i) * at(used + first, j));
+                to[begin + j] = entries * (row_used * column_used);
             }
-            to[begin + n] = at(right + first, i);
+            to[begin + n] = doubles_at<kWidth>(right + i * kSystems + first);
         }
     }
 }

@@ -69,6 +69,16 @@ LPF_INLINE typename Registers<kWidth>::FloatsAt& floats_at(float* to) {
     return *reinterpret_cast<typename Registers<kWidth>::FloatsAt*>(to);
 }
 
+template <int kWidth>
+LPF_INLINE const typename Registers<kWidth>::DoublesAt& doubles_at(const double* from) {
+    return *reinterpret_cast<const typename Registers<kWidth>::DoublesAt*>(from);
+}
+
+template <int kWidth>
+LPF_INLINE typename Registers<kWidth>::DoublesAt& doubles_at(double* to) {
+    return *reinterpret_cast<typename Registers<kWidth>::DoublesAt*>(to);
+}
+
 // Four values that lie together in memory, wherever they begin.
 typedef float FourFloats __attribute__((vector_size(16), aligned(4), may_alias));
 

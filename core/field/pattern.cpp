@@ -18,7 +18,6 @@ constexpr int kMinimumGrid = 4;
 constexpr int kMaximumGrid = 128;
 constexpr int kMaximumPoints = 12849;  // M of the largest grid
 constexpr int kMinimumPoints = 5;
-constexpr int kPadding = 16;
 
 /// Calls visit(i, j) for every node of an n x n grid inside the open disk, row by row.
 template <typename Visit>
@@ -106,7 +105,7 @@ int Pattern::grid_size_for(int points) {
 
 Pattern::Pattern(const Eigen::Matrix3Xf& offsets, int grid_size, float step)
     : size_(static_cast<int>(offsets.cols())),
-      padded_((size_ + kPadding - 1) / kPadding * kPadding),
+      padded_(static_cast<int>(whole_lines(static_cast<std::size_t>(size_)))),
       grid_size_(grid_size),
       step_(step),
       data_(3 * static_cast<std::size_t>(padded_), 0.0F) {

@@ -51,6 +51,12 @@ Eigen::AlignedBox3d bounding_box(const Points& points, const Execution& executio
     return box;
 }
 
+Eigen::Vector3d centre_of(const Points& points, const Execution& execution) {
+    if (points.cols() == 0) return Eigen::Vector3d::Zero();
+    const Eigen::AlignedBox3d box = bounding_box(points, execution);
+    return box.min() / 2 + box.max() / 2;
+}
+
 bool all_finite(const Points& points, const Execution& execution) {
     const auto n = static_cast<std::size_t>(points.cols());
     std::vector<std::uint8_t> finite(chunk_count(n, kPointsPerChunk));

@@ -13,6 +13,10 @@ namespace lpf {
 [[nodiscard]] Eigen::AlignedBox3d bounding_box(const Points& points,
                                                const Execution& execution = {});
 
+/// The middle of that box; the origin where there are no points. Halves are added, so that it is
+/// finite wherever the points are.
+[[nodiscard]] Eigen::Vector3d centre_of(const Points& points, const Execution& execution = {});
+
 /// Whether no coordinate is infinite or not a number.
 [[nodiscard]] bool all_finite(const Points& points, const Execution& execution = {});
 

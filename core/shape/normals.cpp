@@ -56,8 +56,7 @@ Eigen::Matrix3Xf estimate_normals(const Points& points, int k, const Execution& 
     Eigen::Matrix3Xf normals(3, points.cols());
     if (points.cols() == 0) return normals;
     const SpatialIndex index(points, execution);
-    const Eigen::AlignedBox3d box = bounding_box(points, execution);
-    const Eigen::Vector3d centre = box.min() / 2 + box.max() / 2;
+    const Eigen::Vector3d centre = centre_of(points, execution);
     const auto wanted = static_cast<std::size_t>(std::max(k, 3));
     parallel_for(execution, "normals", "points", static_cast<std::size_t>(points.cols()), 4096,
                  [&](std::size_t begin, std::size_t end, std::size_t) {

@@ -86,17 +86,11 @@ private:
 using KdTree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Columns>,
                                                    Columns, 3, std::uint32_t>;
 
-Eigen::Vector3d centre_of(const Points& points) {
-    if (points.cols() == 0) return Eigen::Vector3d::Zero();
-    const Eigen::AlignedBox3d box = bounding_box(points);
-    return box.min() / 2 + box.max() / 2;
-}
-
 }  // namespace
 
 struct SpatialIndex::Tree {
     Tree(const Points& points, const Execution& execution)
-        : centre(centre_of(points)),
+        : centre(centre_of(points, execution)),
           columns{points.colwise() - centre, &execution},
           tree(3, columns) {
         columns.building = nullptr;

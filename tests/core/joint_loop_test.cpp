@@ -66,8 +66,9 @@ TEST(JointLoop, OneIterationIsTheStepsOfThePaper) {
                 params.lambda * double{fields.lambda_share(j)} * l1(codes[j])) /
                static_cast<double>(fields.size());
     };
+    const CodingMatrices matrices(dictionary);
     fields.for_each_probed("", {}, [&](std::size_t j, auto& worker, std::size_t) {
-        coder.encode(CodingMatrices(dictionary), worker.field, codes[j], fields.lambda_share(j));
+        coder.encode(matrices, worker.field, codes[j], fields.lambda_share(j));
         dictionary.decode(codes[j], worker.decoded);
         expected.learning += energy(j, worker);
         const RigidFit fit = fit_pose(fields.pattern(), worker.field.data(), worker.decoded.data());
