@@ -164,7 +164,7 @@ private:
         parallel_for(part_of(execution, 0.2, 1.0), "seeds", "fields", seeds.size(), kSeedsPerChunk,
                      [&](std::size_t begin, std::size_t end, std::size_t) {
                          TargetArea target;
-                         PieceGrower grower;
+                         PieceGrower grower(params_.adapt_radius);
                          for (std::size_t i = begin; i < end; ++i) {
                              seeds[i] = examine(open[chosen[i]], trial, target, grower);
                          }

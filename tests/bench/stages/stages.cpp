@@ -192,7 +192,7 @@ BENCHMARK(Pose);
 void Grow(benchmark::State& state) {
     const Scene& s = scene();
     TargetArea target;
-    PieceGrower grower;
+    PieceGrower grower(true);
     std::size_t i = 0;
     for (auto _ : state) {
         s.gather(i++, target);

@@ -33,7 +33,7 @@ Grown grow(const Points& points, const Vector3d& centre, double radius, double n
     grown.frame.radius = radius;
     const PointGrid grid(points, 0.55 * radius);
     grid.gather(grown.frame.centre, grown.frame.radius, kExtent, grown.target);
-    PieceGrower grower;
+    PieceGrower grower(true);
     grown.piece = grower.grow(grown.target, static_cast<float>(noise / radius), kExtent);
     grown.frame.origin = grown.piece.origin;
     grown.frame.axes = grown.piece.axes;
@@ -116,6 +116,31 @@ TEST(PieceGrower, FoldsAtAnEdgeWithoutRoundingIt) {
                                0);
     const Vector3d mean = grown.frame.to_world(foot + grown.piece.mean(foot.x(), foot.y()));
     EXPECT_NEAR(cube.distance(mean), std::sqrt(0.5) * 0.8 * noise, 0.25 * noise);
+}
+
+/// Growing about places of a cube's edges, 30 points to a ball: how many pieces cut an edge off and
+/// promise to err little there.
+int believed_chamfers(bool refuses_chamfers) {
+    constexpr double kNoise = 0.005;
+    const auto cube = test::make_cube({.points = 6000, .noise = kNoise});
+    const PointGrid grid(cube.points, 0.1);
+    PieceGrower grower(refuses_chamfers);
+    int believed = 0;
+    for (double along = -0.8; along <= 0.8; along += 0.02) {
+        TargetArea target;
+        grid.gather({along, 0.995, 0.985}, 0.2, kExtent, target);
+        const Piece piece = grower.grow(target, static_cast<float>(kNoise / 0.2), kExtent);
+        const Eigen::Vector3f normal = piece.axes.col(2).cwiseAbs();
+        const bool leans = std::min(normal.y(), normal.z()) > 0.3F;
+        believed += piece.dimension == kSurface && piece.crease.slope == 0 && leans &&
+                    piece.squared_error < 0.01F;
+    }
+    return believed;
+}
+
+TEST(PieceGrower, RefusesToCutEdgesOff) {
+    EXPECT_GT(believed_chamfers(false), 3);
+    EXPECT_EQ(believed_chamfers(true), 0);
 }
 
 TEST(PieceGrower, FindsNoCreaseOnASphere) {

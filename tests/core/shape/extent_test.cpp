@@ -39,9 +39,9 @@ TEST(Extent, OneCoordinateThatIsNotFiniteIsFound) {
     Points points = random_points();
     EXPECT_TRUE(all_finite(points, {.threads = 2}));
     EXPECT_TRUE(all_finite(Points(3, 0)));
-    for (const double value : {std::numeric_limits<double>::infinity(),
-                               -std::numeric_limits<double>::infinity(),
-                               std::numeric_limits<double>::quiet_NaN()}) {
+    for (const double value :
+         {std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+          std::numeric_limits<double>::quiet_NaN()}) {
         double& last = points(2, points.cols() - 1);
         last = value;
         EXPECT_FALSE(all_finite(points, {.threads = 2})) << value;
