@@ -11,6 +11,10 @@ namespace {
 
 constexpr std::size_t kFieldsPerChunk = 256;
 
+/// Fields of a sample that are coded together. They come from far, and the dictionary is read once
+/// for all of them.
+constexpr std::size_t kFieldsAtOnce = 32;
+
 /// Codes the whole sample, and sums up what the dictionary update needs, chunk by chunk in order.
 DictionaryStatistics encode_sample(const FieldSample& sample, const Coder& coder,
                                    const Dictionary& dictionary, SparseCodes& codes,
@@ -22,10 +26,10 @@ DictionaryStatistics encode_sample(const FieldSample& sample, const Coder& coder
     parallel_for(execution, "learn", "fields", sample.count(), kFieldsPerChunk,
                  [&](std::size_t begin, std::size_t end, std::size_t chunk) {
                      const auto d = static_cast<std::size_t>(dictionary.atoms());
-                     AlignedFloats correlations(kFieldsOfBlock * matrices.width);
-                     std::array<LassoTask, kFieldsOfBlock> tasks;
-                     for (std::size_t first = begin; first < end; first += kFieldsOfBlock) {
-                         const std::size_t size = std::min(kFieldsOfBlock, end - first);
+                     AlignedFloats correlations(kFieldsAtOnce * matrices.width);
+                     std::array<LassoTask, kFieldsAtOnce> tasks;
+                     for (std::size_t first = begin; first < end; first += kFieldsAtOnce) {
+                         const std::size_t size = std::min(kFieldsAtOnce, end - first);
                          const std::span<const float> fields = sample.some(first, size);
                          Coder::correlate(matrices, fields, correlations);
                          for (std::size_t k = 0; k < size; ++k) {
