@@ -6,6 +6,7 @@
 #include "core/base/raise.h"
 #include "core/field/local_probing_field.h"
 #include "core/near_groups.h"
+#include "core/shape/extent.h"
 #include "core/shape/point_grid.h"
 
 namespace lpf {
@@ -61,7 +62,7 @@ public:
     Search(const Points& shape, double noise, const Execution& execution)
         : noise_(noise), grid_(shape, kCell * noise, execution), near_(mean_near(grid_, noise)) {
         if (near_ < kFewestNear) return;
-        const Points sorted = shape(Eigen::all, grid_.order());
+        const Points sorted = selected(shape, grid_.order(), execution);
         some_ = PointGrid(one_in(stride_to(kMostNear, near_), sorted), kCell * noise, execution);
     }
 

@@ -7,6 +7,7 @@
 #include "core/base/gaussian_kernels.h"
 #include "core/bent_part.h"
 #include "core/near_groups.h"
+#include "core/shape/extent.h"
 #include "core/shape/point_grid.h"
 
 namespace lpf {
@@ -189,7 +190,7 @@ private:
 
     /// Groups of the scan that bent points have to explain, now or when they have moved.
     [[nodiscard]] std::vector<NearGroup> groups_of_scan(const Execution& execution) const {
-        const PointGrid bent(shape_(Eigen::all, bent_), kCell * noise_, execution);
+        const PointGrid bent(selected(shape_, bent_, execution), kCell * noise_, execution);
         auto groups = near_groups(
             scan_.size(), kCell * noise_, [&](std::size_t i) { return scan_.point(i); }, execution);
         std::vector<std::uint8_t> is_near(groups.size(), 0);
@@ -256,8 +257,8 @@ std::vector<std::uint32_t> deconvolve(const Points& scan, double noise, const Re
                                    part_of(execution, 0.0, 0.2));
     if (part.bent.empty()) return {};
     const Execution rest = part_of(execution, 0.2, 1.0);
-    const Points moved = Deconvolution(part, shape(Eigen::all, part.points),
-                                       scan(Eigen::all, part.points), noise, rest)
+    const Points moved = Deconvolution(part, selected(shape, part.points, rest),
+                                       selected(scan, part.points, rest), noise, rest)
                              .run(rest);
     for (std::uint32_t& i : part.bent) {
         const std::uint32_t point = part.points[i];

@@ -98,7 +98,7 @@ using Pairs = std::vector<Pair>;
 /// before `first`.
 void add_near_pairs(const Points& points, const Numbers& numbers, std::size_t first,
                     double distance, Pairs& all, const Execution& execution) {
-    const Points some = points(Eigen::all, numbers);
+    const Points some = selected(points, numbers, execution);
     const PointGrid grid(some, distance, execution);
     std::vector<Pairs> of_chunks(chunk_count(numbers.size(), kPointsPerChunk));
     parallel_for(execution, "spread", "points", numbers.size(), kPointsPerChunk,

@@ -28,7 +28,7 @@ void take_vertices(PlyTable table, Document& document, const Execution& executio
             cloud.attributes.push_back(column.release());
             continue;
         }
-        fill_coordinate(column, cloud.points, static_cast<Eigen::Index>(axis));
+        fill_coordinate(column, cloud.points, static_cast<Eigen::Index>(axis), execution);
         document.double_positions |= float32_may_lose(column.property().type);
         (void)column.release();  // the bytes are not needed any more
     }

@@ -100,8 +100,7 @@ void BinaryReader::read_blocks() {
             source += size;
         }
     };
-    parallel_for(on_one_thread(execution_), kDecodePhase, "rows", table_.rows, kRowsPerBlock,
-                 copy_block);
+    parallel_for(execution_, kDecodePhase, "rows", table_.rows, kRowsPerBlock, copy_block);
     at_ += table_.rows * row_size;
 }
 

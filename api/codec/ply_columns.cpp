@@ -8,13 +8,17 @@ namespace lpf {
 namespace {
 
 template <typename T>
-void fill_coordinate(const std::vector<std::byte>& data, Points& points, Eigen::Index axis) {
-    const std::byte* source = data.data();
-    for (Eigen::Index i = 0; i < points.cols(); ++i, source += sizeof(T)) {
-        T value;
-        std::memcpy(&value, source, sizeof value);
-        points(axis, i) = static_cast<double>(value);
-    }
+void fill(const PlyColumn& column, Points& points, Eigen::Index axis, const Execution& execution) {
+    const auto n = static_cast<std::size_t>(points.cols());
+    parallel_for(execution, n, kPointsPerChunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                     const std::byte* source = column.data().data() + begin * sizeof(T);
+                     for (std::size_t i = begin; i < end; ++i, source += sizeof(T)) {
+                         T value;
+                         std::memcpy(&value, source, sizeof value);
+                         points(axis, static_cast<Eigen::Index>(i)) = static_cast<double>(value);
+                     }
+                 });
 }
 
 }  // namespace
@@ -68,16 +72,17 @@ PlyTable table_for(const PlyElement& element, std::size_t rows) {
     return table;
 }
 
-void fill_coordinate(const PlyColumn& column, Points& points, Eigen::Index axis) {
+void fill_coordinate(const PlyColumn& column, Points& points, Eigen::Index axis,
+                     const Execution& execution) {
     switch (column.property().type) {
-        case ScalarType::Int8: return fill_coordinate<std::int8_t>(column.data(), points, axis);
-        case ScalarType::UInt8: return fill_coordinate<std::uint8_t>(column.data(), points, axis);
-        case ScalarType::Int16: return fill_coordinate<std::int16_t>(column.data(), points, axis);
-        case ScalarType::UInt16: return fill_coordinate<std::uint16_t>(column.data(), points, axis);
-        case ScalarType::Int32: return fill_coordinate<std::int32_t>(column.data(), points, axis);
-        case ScalarType::UInt32: return fill_coordinate<std::uint32_t>(column.data(), points, axis);
-        case ScalarType::Float32: return fill_coordinate<float>(column.data(), points, axis);
-        case ScalarType::Float64: return fill_coordinate<double>(column.data(), points, axis);
+        case ScalarType::Int8: return fill<std::int8_t>(column, points, axis, execution);
+        case ScalarType::UInt8: return fill<std::uint8_t>(column, points, axis, execution);
+        case ScalarType::Int16: return fill<std::int16_t>(column, points, axis, execution);
+        case ScalarType::UInt16: return fill<std::uint16_t>(column, points, axis, execution);
+        case ScalarType::Int32: return fill<std::int32_t>(column, points, axis, execution);
+        case ScalarType::UInt32: return fill<std::uint32_t>(column, points, axis, execution);
+        case ScalarType::Float32: return fill<float>(column, points, axis, execution);
+        case ScalarType::Float64: return fill<double>(column, points, axis, execution);
     }
 }
 

@@ -76,7 +76,8 @@ struct PlyPlace {
                                  PlyPlace& place, const Execution& execution);
 
 /// Fills one row of `points` with the values of a scalar column. @pre as many values as points
-void fill_coordinate(const PlyColumn& column, Points& points, Eigen::Index axis);
+void fill_coordinate(const PlyColumn& column, Points& points, Eigen::Index axis,
+                     const Execution& execution);
 
 /// An empty table of `rows` rows with a column for each property.
 [[nodiscard]] PlyTable table_for(const PlyElement& element, std::size_t rows);

@@ -85,8 +85,8 @@ void write_equal_rows(const PlyOutputElement& element, bool big_endian, std::str
     out.resize(begin + element.rows * row_size);
     throw_if_cancelled(execution);
     auto* const target = reinterpret_cast<std::byte*>(out.data() + begin);
-    std::array<std::byte, 8 * kRowsPerBlock> swapped{};
     const auto write_block = [&](std::size_t row, std::size_t end, std::size_t) {
+        std::array<std::byte, 8 * kRowsPerBlock> swapped;
         const std::size_t n = end - row;
         std::byte* value = target + row * row_size;
         for (const PlyOutputColumn& column : element.columns) {
@@ -101,8 +101,7 @@ void write_equal_rows(const PlyOutputElement& element, bool big_endian, std::str
             value += size;
         }
     };
-    parallel_for(on_one_thread(execution), kEncodePhase, "rows", element.rows, kRowsPerBlock,
-                 write_block);
+    parallel_for(execution, kEncodePhase, "rows", element.rows, kRowsPerBlock, write_block);
 }
 
 void write_ascii_row(const PlyOutputElement& element, std::size_t row, std::string& out) {

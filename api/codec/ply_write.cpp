@@ -89,13 +89,17 @@ private:
 };
 
 template <typename T>
-std::vector<std::byte> coordinate_column(const Points& points, Eigen::Index axis) {
-    std::vector<std::byte> column(static_cast<std::size_t>(points.cols()) * sizeof(T));
-    for (Eigen::Index i = 0; i < points.cols(); ++i) {
-        const T value = static_cast<T>(points(axis, i));
-        std::memcpy(column.data() + static_cast<std::size_t>(i) * sizeof value, &value,
-                    sizeof value);
-    }
+std::vector<std::byte> coordinate_column(const Points& points, Eigen::Index axis,
+                                         const Execution& execution) {
+    const auto n = static_cast<std::size_t>(points.cols());
+    std::vector<std::byte> column(n * sizeof(T));
+    parallel_for(execution, n, kPointsPerChunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                     for (std::size_t i = begin; i < end; ++i) {
+                         const T value = static_cast<T>(points(axis, static_cast<Eigen::Index>(i)));
+                         std::memcpy(column.data() + i * sizeof value, &value, sizeof value);
+                     }
+                 });
     return column;
 }
 
@@ -104,8 +108,9 @@ void PlyWriter::add_coordinates(PlyOutputElement& vertex) {
     coordinates_.reserve(3);
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
         throw_if_cancelled(execution_);
-        coordinates_.push_back(double_positions_ ? coordinate_column<double>(points, axis)
-                                                 : coordinate_column<float>(points, axis));
+        coordinates_.push_back(double_positions_
+                                   ? coordinate_column<double>(points, axis, execution_)
+                                   : coordinate_column<float>(points, axis, execution_));
         PlyOutputColumn column;
         column.name = std::string(1, "xyz"[axis]);
         column.type = double_positions_ ? ScalarType::Float64 : ScalarType::Float32;

@@ -126,9 +126,9 @@ void PlySurvey::look_at_points(const PlyTable& table) {
     Points points(3, static_cast<Eigen::Index>(table.rows));
     for (const PlyColumn& column : table.columns) {
         const std::string& name = column.property().name;
-        if (name == "x") fill_coordinate(column, points, 0);
-        if (name == "y") fill_coordinate(column, points, 1);
-        if (name == "z") fill_coordinate(column, points, 2);
+        if (name == "x") fill_coordinate(column, points, 0, {});
+        if (name == "y") fill_coordinate(column, points, 1, {});
+        if (name == "z") fill_coordinate(column, points, 2, {});
     }
     for (const auto point : points.colwise()) {
         if (!point.allFinite()) continue;

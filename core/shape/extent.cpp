@@ -57,6 +57,18 @@ Eigen::Vector3d centre_of(const Points& points, const Execution& execution) {
     return box.min() / 2 + box.max() / 2;
 }
 
+Points selected(const Points& points, std::span<const std::uint32_t> numbers,
+                const Execution& execution) {
+    Points some(3, static_cast<Eigen::Index>(numbers.size()));
+    parallel_for(execution, numbers.size(), kPointsPerChunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                     for (std::size_t i = begin; i < end; ++i) {
+                         some.col(static_cast<Eigen::Index>(i)) = points.col(numbers[i]);
+                     }
+                 });
+    return some;
+}
+
 bool all_finite(const Points& points, const Execution& execution) {
     const auto n = static_cast<std::size_t>(points.cols());
     std::vector<std::uint8_t> finite(chunk_count(n, kPointsPerChunk));

@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 
 #include "core/base/parallel.h"
 #include "core/shape/shape.h"
@@ -16,6 +18,10 @@ namespace lpf {
 /// The middle of that box; the origin where there are no points. Halves are added, so that it is
 /// finite wherever the points are.
 [[nodiscard]] Eigen::Vector3d centre_of(const Points& points, const Execution& execution = {});
+
+/// Some of the points, in the order of their numbers.
+[[nodiscard]] Points selected(const Points& points, std::span<const std::uint32_t> numbers,
+                              const Execution& execution = {});
 
 /// Whether no coordinate is infinite or not a number.
 [[nodiscard]] bool all_finite(const Points& points, const Execution& execution = {});

@@ -4,9 +4,9 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <numeric>
 #include <span>
 
+#include "core/base/radix_sort.h"
 #include "core/shape/spatial_index.h"
 
 namespace lpf {
@@ -66,6 +66,8 @@ double limit_for(const std::vector<double>& distances, double deviations,
 constexpr std::size_t kBuckets = 1024;
 constexpr std::uint64_t kHashesPerBucket = (~std::uint64_t{0} / kBuckets) + 1;
 
+std::size_t bucket_of(std::uint64_t hash) { return hash / kHashesPerBucket; }
+
 struct Key {
     std::uint64_t hash;
     std::uint32_t index;
@@ -115,24 +117,29 @@ void mark_bucket(const Points& points, std::span<Key> keys, std::vector<std::uin
 }
 
 /// The points by the bucket of their position, in their order within a bucket.
-/// @param ends receives where each bucket ends
-std::vector<Key> into_buckets(const Points& points, std::array<std::size_t, kBuckets>& ends,
-                              const Execution& execution) {
+std::vector<Key> into_buckets(const Points& points, const Execution& execution) {
     const auto n = static_cast<std::size_t>(points.cols());
-    std::vector<std::uint64_t> hashes(n);
-    parallel_for(execution, n, 1U << 16U, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end; ++i) {
-            hashes[i] = hash_position(points, static_cast<std::uint32_t>(i));
-        }
-    });
-    ends.fill(0);
-    for (const std::uint64_t hash : hashes) ++ends[hash / kHashesPerBucket];
-    std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), std::size_t{0});
-    throw_if_cancelled(execution);
-    std::vector<Key> keys(n);
-    for (std::uint32_t i = 0; i < n; ++i) {
-        keys[ends[hashes[i] / kHashesPerBucket]++] = {hashes[i], i};
+    std::vector<Keyed<std::uint32_t>> sorted(n);
+    parallel_for(execution, n, kPointsPerChunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                     for (std::size_t i = begin; i < end; ++i) {
+                         const auto point = static_cast<std::uint32_t>(i);
+                         const std::size_t bucket = bucket_of(hash_position(points, point));
+                         sorted[i] = {static_cast<std::uint32_t>(bucket), point};
+                     }
+                 });
+    {
+        std::vector<Keyed<std::uint32_t>> room;
+        radix_sort(sorted, room, kBuckets - 1, execution);
     }
+    std::vector<Key> keys(n);
+    parallel_for(execution, n, kPointsPerChunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                     for (std::size_t i = begin; i < end; ++i) {
+                         const std::uint32_t point = sorted[i].second;
+                         keys[i] = {hash_position(points, point), point};
+                     }
+                 });
     return keys;
 }
 
@@ -150,13 +157,12 @@ std::vector<std::uint8_t> find_outliers(const Points& points, double deviations,
 
 std::vector<std::uint8_t> find_duplicates(const Points& points, const Execution& execution) {
     std::vector<std::uint8_t> repeated(static_cast<std::size_t>(points.cols()), 0);
-    std::array<std::size_t, kBuckets> ends{};
-    std::vector<Key> keys = into_buckets(points, ends, execution);
+    std::vector<Key> keys = into_buckets(points, execution);
     parallel_for(execution, "duplicates", "buckets", kBuckets, 1,
                  [&](std::size_t bucket, std::size_t, std::size_t) {
-                     const std::size_t begin = bucket == 0 ? 0 : ends[bucket - 1];
-                     mark_bucket(points, std::span(keys).subspan(begin, ends[bucket] - begin),
-                                 repeated);
+                     const auto of_bucket = std::ranges::equal_range(
+                         keys, bucket, {}, [](const Key& key) { return bucket_of(key.hash); });
+                     mark_bucket(points, of_bucket, repeated);
                  });
     return repeated;
 }

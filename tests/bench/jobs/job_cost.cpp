@@ -146,7 +146,7 @@ Work run(const Options& options, CostMeter& meter) {
     std::vector<Warning> lost;
     EncodeOptions how{.format = parse_format_name(options.format).value_or(document.format)};
     if (how.format == FileFormat::Draco) how.quantization_bits = 16;
-    const std::string bytes = encode(document, how, lost);
+    const std::string bytes = encode(document, how, lost, {.threads = options.threads});
     meter.begin("store");
     blobs.put(bytes);
     meter.end();

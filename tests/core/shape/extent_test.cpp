@@ -35,6 +35,20 @@ TEST(Extent, CentreIsFiniteWhereverThePointsAre) {
     EXPECT_EQ(centre_of(Points(3, 0)), Eigen::Vector3d::Zero());
 }
 
+TEST(Extent, SelectedPointsComeInTheOrderOfTheirNumbers) {
+    const Points points = random_points();
+    std::vector<std::uint32_t> numbers;
+    for (Eigen::Index i = points.cols() - 1; i >= 0; i -= 3) {
+        numbers.push_back(static_cast<std::uint32_t>(i));
+    }
+    const Points some = selected(points, numbers, {.threads = 2});
+    ASSERT_EQ(static_cast<std::size_t>(some.cols()), numbers.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        EXPECT_EQ(some.col(static_cast<Eigen::Index>(i)), points.col(numbers[i]));
+    }
+    EXPECT_EQ(selected(points, {}).cols(), 0);
+}
+
 TEST(Extent, OneCoordinateThatIsNotFiniteIsFound) {
     Points points = random_points();
     EXPECT_TRUE(all_finite(points, {.threads = 2}));
