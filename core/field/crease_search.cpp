@@ -234,10 +234,10 @@ std::optional<Piece> creased(PieceSample& sample, TargetArea all, const Piece& s
 
 }  // namespace
 
-void fold_at_crease(PieceSample& sample, float sigmas, bool is_chamfer, Piece& piece) {
+void fold_at_crease(PieceSample& sample, float sigmas, bool meets_edge, Piece& piece) {
     if (piece.is_curve()) return;
     const float by_noise = piece.squared_error - piece.squared_bias;
-    if (piece.squared_bias <= kLeastBias * by_noise && !is_chamfer) return;
+    if (piece.squared_bias <= kLeastBias * by_noise && !meets_edge) return;
     const auto before = static_cast<double>(sample.count_members(piece));
     TargetArea all;
     all.x = sample.px;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/field/chamfer.h"
 #include "core/field/crease_search.h"
 #include "core/field/curve_search.h"
+#include "core/field/edge_check.h"
 #include "core/field/piece_fit.h"
 #include "core/field/sheet_split.h"
 #include "core/field/tube_fit.h"
@@ -36,8 +36,9 @@ constexpr std::size_t kFewestOfBend = 12;
 /// does not.
 constexpr double kMostBesideCurve = 1.5;
 
-/// A chamfer says nothing about the shape: it errs by as much as an LPF can.
-constexpr float kErrorOfChamfer = 1.0F;
+/// A smooth surface that meets an edge errs by as much as an LPF can: smaller ones keep off the
+/// edge.
+constexpr float kErrorAtEdge = 1.0F;
 
 /// More points than this add nothing that a piece could tell.
 constexpr std::size_t kMostPoints = 3000;
@@ -60,10 +61,10 @@ Piece PieceGrower::grow(const TargetArea& target, float noise, float extent, flo
     follow_crossing_curve(sample_, kSigmasOffCrossing, piece);
     widen_to_tube(sample_, kSigmasOffSurface, piece);
     if (piece.squared_error < enough) return piece;
-    const bool cuts = refuses_chamfers_ && is_chamfer(sample_, piece);
-    fold_at_crease(sample_, kSigmasOffSurface, cuts, piece);
+    const bool at_edge = refuses_edges_ && meets_edge(sample_, piece);
+    fold_at_crease(sample_, kSigmasOffSurface, at_edge, piece);
     split_sheets(sample_, kSigmasOffSurface, piece);
-    if (refuses_chamfers_ && is_chamfer(sample_, piece)) piece.squared_error = kErrorOfChamfer;
+    if (refuses_edges_ && meets_edge(sample_, piece)) piece.squared_error = kErrorAtEdge;
     return piece;
 }
 

@@ -7,10 +7,10 @@ namespace lpf {
 /// Finds the pieces of target areas. One for each thread.
 class PieceGrower {
 public:
-    /// @param refuses_chamfers whether surfaces that cut an edge off the shape err by as much as
-    /// can
-    ///                         be. Where there are no smaller LPFs, they are the best there is
-    explicit PieceGrower(bool refuses_chamfers) : refuses_chamfers_(refuses_chamfers) {}
+    /// @param refuses_edges whether smooth surfaces that meet an edge of the shape count as
+    /// useless.
+    ///                      Where there are no smaller LPFs, they are the best there is
+    explicit PieceGrower(bool refuses_edges) : refuses_edges_(refuses_edges) {}
 
     /// Grows the piece through the centre of a target area from a small ball to the whole of it:
     /// what does not continue what is there already stays outside.
@@ -29,7 +29,7 @@ private:
     [[nodiscard]] bool is_strip(const Piece& curve) const;
     bool straighten(std::size_t ball, Piece& piece);
 
-    bool refuses_chamfers_;
+    bool refuses_edges_;
     PieceSample sample_;
     TargetArea members_;
 };

@@ -174,10 +174,10 @@ TEST_P(PinnedQuality, OfDenoisingWithAutomaticParameters) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, PinnedQuality,
-                         testing::Values(Quality{"cube", 12000, 0.02, 0.003473, 2.498, 759},
+                         testing::Values(Quality{"cube", 12000, 0.02, 0.003634, 2.451, 755},
                                          Quality{"curve_on_surface", 12000, 0.02, 0.002014, 1.472,
                                                  250},
-                                         Quality{"thin_plate", 12000, 0.008, 0.000942, 0.6178, 407},
+                                         Quality{"thin_plate", 12000, 0.008, 0.000947, 0.5518, 405},
                                          Quality{"open_sheet", 8000, 0.05, 0.006013, 1.211, 184}),
                          [](const auto& each) { return std::string(each.param.shape); });
 

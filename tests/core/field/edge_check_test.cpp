@@ -1,4 +1,4 @@
-#include "core/field/chamfer.h"
+#include "core/field/edge_check.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace lpf {
 namespace {
 
-constexpr float kNoise = 0.02F;
+constexpr float kNoise = 0.05F;
 constexpr float kReach = 2.6F * kNoise;
 
 /// Noisy points of a shape in the unit ball.
@@ -28,8 +28,8 @@ PieceSample sample_of(const std::function<Eigen::Vector3d(Random&)>& place, int 
     return sample;
 }
 
-/// Whether the plane z = slope x + height is a chamfer.
-bool is_chamfer(PieceSample sample, float slope = 0.0F, float height = 0.0F) {
+/// Whether the plane z = slope x + height meets an edge.
+bool meets_edge(PieceSample sample, float slope = 0.0F, float height = 0.0F) {
     Piece piece;
     piece.dimension = kSurface;
     piece.noise = kNoise;
@@ -39,7 +39,7 @@ bool is_chamfer(PieceSample sample, float slope = 0.0F, float height = 0.0F) {
     piece.coefficients[1] = slope;
     sample.look_along(piece, sample.size());
     sample.measure(piece, sample.size());
-    return is_chamfer(sample, piece);
+    return meets_edge(sample, piece);
 }
 
 Eigen::Vector3d on_plane(Random& random) {
@@ -52,42 +52,53 @@ Eigen::Vector3d on_roof(Random& random) {
     return {x, random.uniform(-1, 1), -std::abs(x)};
 }
 
-TEST(Chamfer, IsNoPlaneThatAllPointsLieOn) { EXPECT_FALSE(is_chamfer(sample_of(on_plane))); }
+TEST(EdgeCheck, FindsNoneOnAPlane) { EXPECT_FALSE(meets_edge(sample_of(on_plane))); }
 
-TEST(Chamfer, IsAPlaneThatCutsARidgeOff) {
-    EXPECT_TRUE(is_chamfer(sample_of(on_roof), 0.0F, -0.1F));
+TEST(EdgeCheck, FindsTheRidgeThatAPlaneCutsOff) {
+    EXPECT_TRUE(meets_edge(sample_of(on_roof), 0.0F, -0.1F));
 }
 
-TEST(Chamfer, IsAPlaneThatLeansAcrossAPlane) { EXPECT_TRUE(is_chamfer(sample_of(on_plane), 0.5F)); }
-
-TEST(Chamfer, IsAlsoKnownByFewPoints) {
-    EXPECT_TRUE(is_chamfer(sample_of(on_roof, 60), 0.0F, -0.1F));
-    EXPECT_FALSE(is_chamfer(sample_of(on_plane, 60)));
+TEST(EdgeCheck, FindsTheEdgeThatAFaceRunsUpTo) {
+    const auto place = [](Random& random) -> Eigen::Vector3d {
+        const double x = random.uniform(-1, 1);
+        return {std::min(x, 0.0), random.uniform(-1, 1), -std::max(x, 0.0)};
+    };
+    EXPECT_TRUE(meets_edge(sample_of(place)));
 }
 
-TEST(Chamfer, IsNoWallUnderAWire) {
+TEST(EdgeCheck, FindsThatAPlaneLeansAcrossTheShape) {
+    EXPECT_TRUE(meets_edge(sample_of(on_plane), 0.5F));
+}
+
+TEST(EdgeCheck, NeedsPoints) {
+    EXPECT_TRUE(meets_edge(sample_of(on_roof, 300), 0.0F, -0.1F));
+    EXPECT_FALSE(meets_edge(sample_of(on_plane, 300)));
+    EXPECT_FALSE(meets_edge(sample_of(on_roof, 60), 0.0F, -0.1F));
+}
+
+TEST(EdgeCheck, FindsNoneOnAWallUnderAWire) {
     const auto place = [](Random& random) -> Eigen::Vector3d {
         if (random.uniform(0, 1) < 0.6) return on_plane(random);
         return {random.uniform(-1, 1), 0, 4.0 * double{kNoise}};
     };
-    EXPECT_FALSE(is_chamfer(sample_of(place)));
+    EXPECT_FALSE(meets_edge(sample_of(place)));
 }
 
-TEST(Chamfer, IsNoSheetThatEndsByItself) {
+TEST(EdgeCheck, FindsNoneWhereASheetEndsByItself) {
     const auto place = [](Random& random) -> Eigen::Vector3d {
         return {random.uniform(-1, 0), random.uniform(-1, 1), 0};
     };
-    EXPECT_FALSE(is_chamfer(sample_of(place)));
+    EXPECT_FALSE(meets_edge(sample_of(place)));
 }
 
-TEST(Chamfer, IsNoCurve) {
+TEST(EdgeCheck, FindsNoneOfCurves) {
     PieceSample sample = sample_of(on_plane);
     Piece curve;
     curve.dimension = kCurve;
     curve.reach = kReach;
     sample.look_along(curve, sample.size());
     sample.measure(curve, sample.size());
-    EXPECT_FALSE(is_chamfer(sample, curve));
+    EXPECT_FALSE(meets_edge(sample, curve));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "core/field/chamfer.h"
+#include "core/field/edge_check.h"
 
 #include <algorithm>
 #include <array>
@@ -9,16 +9,16 @@
 namespace lpf {
 namespace {
 
-/// Points lie just off a surface within so many times its reach. A chamfer has at least this share
-/// of the number of its members there, where they end.
+/// Points lie just off a surface within so many times its reach. At an edge, at least this share of
+/// the number of its members do, where these end.
 constexpr float kJustOff = 2.0F;
 constexpr double kLeastJustOff = 0.1;
 
 /// Members end in and beside blocks that hold less than this share of what blocks hold usually.
 constexpr double kShareOfEnd = 0.4;
 
-/// Blocks hold about so many points.
-constexpr double kPointsOfBlock = 3.0;
+/// Blocks hold about so many points: with fewer, chance would leave some of them empty.
+constexpr double kPointsOfBlock = 20.0;
 constexpr int kMostBlocks = 7;  // along an axis
 constexpr std::size_t kPointsAtOnce = 256;
 
@@ -86,7 +86,7 @@ private:
 
 }  // namespace
 
-bool is_chamfer(const PieceSample& sample, const Piece& piece) {
+bool meets_edge(const PieceSample& sample, const Piece& piece) {
     if (piece.is_curve()) return false;
     Piece thick = piece;
     thick.reach *= kJustOff;
