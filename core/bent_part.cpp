@@ -62,8 +62,10 @@ public:
     Search(const Points& shape, double noise, const Execution& execution)
         : noise_(noise), grid_(shape, kCell * noise, execution), near_(mean_near(grid_, noise)) {
         if (near_ < kFewestNear) return;
-        const Points sorted = selected(shape, grid_.order(), execution);
-        some_ = PointGrid(one_in(stride_to(kMostNear, near_), sorted), kCell * noise, execution);
+        const std::size_t stride = stride_to(kMostNear, near_);
+        std::vector<std::uint32_t> some;
+        for (std::size_t i = 0; i < grid_.size(); i += stride) some.push_back(grid_.order()[i]);
+        some_ = PointGrid(selected(shape, some, execution), kCell * noise, execution);
     }
 
     [[nodiscard]] BentPart run(const Region& region, double margin, const Execution& execution) {

@@ -6,6 +6,7 @@
 
 #include "core/base/random.h"
 #include "core/field_set.h"
+#include "core/shape/extent.h"
 #include "core/shape/outliers.h"
 #include "core/shape/spatial_index.h"
 
@@ -48,9 +49,7 @@ struct Box {
 /// The points that are kept, and the triangles between them.
 Shape only(const Shape& shape, const std::vector<std::uint32_t>& kept) {
     Shape part;
-    part.cloud.points.resize(3, static_cast<Eigen::Index>(kept.size()));
-    for (std::size_t i = 0; i < kept.size(); ++i)
-        part.cloud.points.col(static_cast<Eigen::Index>(i)) = shape.cloud.points.col(kept[i]);
+    part.cloud.points = selected(shape.cloud.points, kept);
     if (!shape.is_mesh()) return part;
     std::vector<std::uint32_t> number(shape.size(), kGone);
     for (std::uint32_t i = 0; i < kept.size(); ++i) number[kept[i]] = i;

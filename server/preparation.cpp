@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 
+#include "core/shape/extent.h"
 #include "core/shape/normals.h"
 #include "core/shape/outliers.h"
 
@@ -26,10 +27,7 @@ Document without(const Document& document, const Flags& flags, const Execution& 
     for (std::size_t i = 0; i < flags.size(); ++i)
         if (!flags[i]) rows.push_back(static_cast<std::uint32_t>(i));
     const PointCloud& cloud = document.shape.cloud;
-    PointCloud kept;
-    kept.points.resize(3, static_cast<Eigen::Index>(rows.size()));
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        kept.points.col(static_cast<Eigen::Index>(i)) = cloud.points.col(rows[i]);
+    PointCloud kept{selected(cloud.points, rows, execution), {}};
     for (const Attribute& attribute : cloud.attributes) {
         throw_if_cancelled(execution);
         kept.attributes.push_back(gather(attribute, rows));

@@ -88,11 +88,9 @@ private:
 
 bool meets_edge(const PieceSample& sample, const Piece& piece) {
     if (piece.is_curve()) return false;
-    Piece thick = piece;
-    thick.reach *= kJustOff;
     const auto members = static_cast<double>(sample.count_members(piece));
-    const auto just_off = static_cast<double>(sample.count_members(thick)) - members;
-    if (just_off <= kLeastJustOff * members) return false;
+    const auto near = static_cast<double>(sample.count_within(kJustOff * piece.reach));
+    if (near - members <= kLeastJustOff * members) return false;
     const double side = std::sqrt(static_cast<double>(sample.size()) / kPointsOfBlock);
     const Blocks blocks(sample, piece, std::clamp(static_cast<int>(side), 1, kMostBlocks));
     return blocks.just_off_ends() > kLeastJustOff * members;

@@ -83,10 +83,8 @@ Piece PieceGrower::grow_as(Dimension dimension, float noise) {
 }
 
 bool PieceGrower::is_strip(const Piece& curve) const {
-    Piece thick = curve;
-    thick.reach *= 2;
     const auto members = static_cast<double>(sample_.count_members(curve));
-    const auto in_tube = static_cast<double>(sample_.count_members(thick));
+    const auto in_tube = static_cast<double>(sample_.count_within(2 * curve.reach));
     return in_tube > kMostBesideCurve * members;
 }
 

@@ -79,12 +79,12 @@ void PieceSample::measure(const Piece& piece, std::size_t count) {
     }
 }
 
-std::size_t PieceSample::count_members(const Piece& piece) const {
-    std::size_t members = 0;
+std::size_t PieceSample::count_within(float distance) const {
+    std::size_t points = 0;
     for (std::size_t i = 0; i < size(); ++i) {
-        members += static_cast<std::size_t>(is_member(piece, i));
+        points += static_cast<std::size_t>(squared_offset[i] <= distance * distance);
     }
-    return members;
+    return points;
 }
 
 }  // namespace lpf

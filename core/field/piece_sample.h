@@ -40,7 +40,11 @@ public:
     [[nodiscard]] bool is_member(const Piece& piece, std::size_t i) const {
         return squared_offset[i] <= piece.reach * piece.reach;
     }
-    [[nodiscard]] std::size_t count_members(const Piece& piece) const;
+    [[nodiscard]] std::size_t count_members(const Piece& piece) const {
+        return count_within(piece.reach);
+    }
+    /// Number of points that lie so far off the piece last measured, at most.
+    [[nodiscard]] std::size_t count_within(float distance) const;
 
     std::vector<float> px, py, pz;        ///< relative to the centre
     std::vector<float> squared_distance;  ///< to the centre

@@ -116,7 +116,8 @@ void mark_bucket(const Points& points, std::span<Key> keys, std::vector<std::uin
     }
 }
 
-/// The points by the bucket of their position, in their order within a bucket.
+/// The points by the bucket of their position, in their order within a bucket. They are hashed
+/// twice: to keep the hashes until then would take eight bytes more for each.
 std::vector<Key> into_buckets(const Points& points, const Execution& execution) {
     const auto n = static_cast<std::size_t>(points.cols());
     std::vector<Keyed<std::uint32_t>> sorted(n);
