@@ -15,6 +15,7 @@ namespace {
 struct Command {
     std::vector<std::string> only;
     std::vector<std::uint64_t> seeds = {2024};
+    bool all_presentations = false;
     std::string fandisk;
     int threads = 2;
 };
@@ -25,11 +26,11 @@ std::string text(double value) {
     return buffer;
 }
 
-void print_header(std::size_t seeds) {
+void print_header(const std::vector<std::string>& runs) {
     std::cout << "| case | figure | aim |";
-    for (std::size_t k = 0; k < seeds; ++k) std::cout << " seed " << k + 1 << " |";
-    std::cout << (seeds > 1 ? " scatter |" : "") << " met |\n|";
-    for (std::size_t k = 0; k < 4 + seeds + (seeds > 1); ++k) std::cout << " --- |";
+    for (const std::string& run : runs) std::cout << " " << run << " |";
+    std::cout << (runs.size() > 1 ? " scatter |" : "") << " met |\n|";
+    for (std::size_t k = 0; k < 4 + runs.size() + (runs.size() > 1); ++k) std::cout << " --- |";
     std::cout << std::endl;
 }
 
@@ -40,7 +41,7 @@ std::string scatter(const std::vector<double>& values) {
 }
 
 /// The figures of a case, one row each.
-/// @param runs for each seed
+/// @param runs the figures of each
 void print_rows(const Case& each, const std::vector<std::vector<Figure>>& runs) {
     for (std::size_t i = 0; i < runs.front().size(); ++i) {
         const Figure& first = runs.front()[i];
@@ -58,18 +59,40 @@ void print_rows(const Case& each, const std::vector<std::vector<Figure>>& runs) 
     std::cout << std::flush;
 }
 
+struct Run {
+    std::string name;
+    Conditions conditions;
+};
+
+/// One scan presented in many ways, or many scans as they are.
+std::vector<Run> runs_of(const Command& command) {
+    Conditions usual{.seed = command.seeds.front(), .execution = {.threads = command.threads}};
+    if (!command.fandisk.empty()) usual.fandisk = test::read_mesh(command.fandisk);
+    std::vector<Run> runs;
+    if (command.all_presentations) {
+        for (const Presentation& presentation : presentations()) {
+            runs.push_back({presentation.name, usual});
+            runs.back().conditions.presentation = presentation;
+        }
+        return runs;
+    }
+    for (const std::uint64_t seed : command.seeds) {
+        runs.push_back({"seed " + std::to_string(runs.size() + 1), usual});
+        runs.back().conditions.seed = seed;
+    }
+    return runs;
+}
+
 int run(const Command& command) {
-    Conditions conditions{.execution = {.threads = command.threads}};
-    if (!command.fandisk.empty()) conditions.fandisk = test::read_mesh(command.fandisk);
-    print_header(command.seeds.size());
+    const std::vector<Run> runs = runs_of(command);
+    std::vector<std::string> names;
+    for (const Run& each : runs) names.push_back(each.name);
+    print_header(names);
     for (const Case& each : cases()) {
         if (!command.only.empty() && !std::ranges::count(command.only, each.name)) continue;
-        std::vector<std::vector<Figure>> runs;
-        for (const std::uint64_t seed : command.seeds) {
-            conditions.seed = seed;
-            runs.push_back(each.measure(conditions));
-        }
-        print_rows(each, runs);
+        std::vector<std::vector<Figure>> figures;
+        for (const Run& run : runs) figures.push_back(each.measure(run.conditions));
+        print_rows(each, figures);
     }
     return 0;
 }
@@ -92,6 +115,10 @@ int parse_and_run(int argc, char** argv) {
     app.add_option("--seeds", command.seeds, "Of the points and their noise, one run for each")
         ->delimiter(',')
         ->capture_default_str();
+    app.add_flag(
+        "--presentations", command.all_presentations,
+        "The first seed's scans with other random numbers in the method, far away, turned, "
+        "in another unit: the figures are to stay the same");
     app.add_option("--fandisk", command.fandisk, "The paper's Fandisk mesh, PLY or Draco")
         ->check(CLI::ExistingFile);
     app.add_option("--threads", command.threads, "How many")

@@ -7,6 +7,7 @@
 
 #include "core/base/parallel.h"
 #include "core/shape/shape.h"
+#include "tests/bench/accuracy/presentation.h"
 
 namespace lpf::accuracy {
 
@@ -19,7 +20,8 @@ struct Figure {
 
 /// What a case is measured under.
 struct Conditions {
-    std::uint64_t seed = 1;             ///< of the points and their noise
+    std::uint64_t seed = 1;  ///< of the points and their noise
+    Presentation presentation = {};
     std::optional<Shape> fandisk = {};  ///< the mesh; cases that need it have no figures without it
     Execution execution = {.threads = 2};
 };

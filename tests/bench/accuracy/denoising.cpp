@@ -16,11 +16,15 @@ using test::Vector3d;
 /// "Near edges" is within so many standard deviations of the noise.
 constexpr double kSigmasNearEdges = 3.0;
 
-Points denoised(const Points& points, const Execution& execution) {
-    const Shape shape{{points, {}}, {}};
-    const Measurements measured = measure(points, execution);
-    return denoise(shape, resolve_parameters(Task::Denoise, shape, measured, {}).denoise, execution)
-        .points;
+Points denoised(const Points& points, const Conditions& conditions) {
+    const Presentation& presentation = conditions.presentation;
+    const Shape shape{{presentation.placed(points), {}}, {}};
+    const Measurements measured = measure(shape.cloud.points, conditions.execution);
+    ParameterRequest request;
+    request.random_seed = presentation.random_seed;
+    const DenoiseParams params =
+        resolve_parameters(Task::Denoise, shape, measured, request).denoise;
+    return presentation.placed_back(denoise(shape, params, conditions.execution).points);
 }
 
 double rmse(const Points& points, const TestShape& shape) {
@@ -31,7 +35,7 @@ Case curvenet(const std::string& name, double noise, double error, double curves
     return {name, "400 000 points, noise " + name, [=](const Conditions& conditions) {
                 const TestShape shape = test::make_curvenet(
                     {.points = 400000, .noise = noise, .seed = conditions.seed});
-                const Points result = denoised(shape.points, conditions.execution);
+                const Points result = denoised(shape.points, conditions);
                 const auto before = test::coverage_of_shape(shape, shape.points);
                 const auto after = test::coverage_of_shape(shape, result);
                 return std::vector<Figure>{{"RMSE", rmse(result, shape), error},
@@ -45,8 +49,8 @@ Case cube() {
                 constexpr double kNoise = 0.05;
                 const TestShape shape =
                     test::make_cube({.points = 150000, .noise = kNoise, .seed = conditions.seed});
-                const auto errors = test::error_by_part(
-                    denoised(shape.points, conditions.execution), shape, kSigmasNearEdges * kNoise);
+                const auto errors = test::error_by_part(denoised(shape.points, conditions), shape,
+                                                        kSigmasNearEdges * kNoise);
                 return std::vector<Figure>{{"RMSE", errors.all.rmse, 0.006},
                                            {"near edges", errors.near_edges.rmse, 0.010}};
             }};
@@ -56,7 +60,7 @@ Case cube_with_curve() {
     return {"cube-with-curve", "80 000 points, noise .01", [](const Conditions& conditions) {
                 const TestShape shape = test::make_cube_with_curve(
                     {.points = 80000, .noise = 0.01, .seed = conditions.seed});
-                const Points result = denoised(shape.points, conditions.execution);
+                const Points result = denoised(shape.points, conditions);
                 return std::vector<Figure>{{"RMSE", rmse(result, shape), 0.003}};
             }};
 }
@@ -69,7 +73,7 @@ Case fandisk(const std::string& name, double percent, double error) {
                 const TestShape shape = test::make_from_mesh(
                     name, *conditions.fandisk,
                     {.points = 600000, .noise = percent / 100 * diagonal, .seed = conditions.seed});
-                const Points result = denoised(shape.points, conditions.execution);
+                const Points result = denoised(shape.points, conditions);
                 return std::vector<Figure>{{"RMSE", rmse(result, shape), error}};
             }};
 }
@@ -83,7 +87,7 @@ Case thin(const std::string& name, const std::string& what, double noise, std::s
     return {name, what, [=](const Conditions& conditions) {
                 const TestShape shape =
                     make({.points = points, .noise = noise, .seed = conditions.seed});
-                const Points result = denoised(shape.points, conditions.execution);
+                const Points result = denoised(shape.points, conditions);
                 std::vector<Figure> figures{{"RMSE", rmse(result, shape), noise / 2}};
                 const auto before = test::coverage_of_shape(shape, shape.points);
                 const auto after = test::coverage_of_shape(shape, result);
@@ -117,7 +121,7 @@ Case small_bodies() {
             [](const Conditions& conditions) {
                 std::vector<Figure> figures{{"mean", 0.0, 0.65}};
                 for (const TestShape& body : test::make_small_bodies(conditions.seed)) {
-                    const Points result = denoised(body.points, conditions.execution);
+                    const Points result = denoised(body.points, conditions);
                     const double left = both_ways(body, result) / both_ways(body, body.points);
                     figures[0].value += left / 10;
                     figures.push_back({body.name, left, 1.0});

@@ -9,13 +9,22 @@
 namespace lpf::accuracy {
 namespace {
 
-ResampleResult resampled(const Points& points, std::size_t count, const Execution& execution) {
-    const Shape shape{{points, {}}, {}};
+struct Resampled {
+    Points points;
+    double spacing;
+};
+
+Resampled resampled(const Points& points, std::size_t count, const Conditions& conditions) {
+    const Presentation& presentation = conditions.presentation;
+    const Shape shape{{presentation.placed(points), {}}, {}};
+    const Measurements measured = measure(shape.cloud.points, conditions.execution);
     ParameterRequest request;
     request.target_points = count;
-    const Measurements measured = measure(points, execution);
-    return resample(shape, resolve_parameters(Task::Resample, shape, measured, request).resample,
-                    execution);
+    request.random_seed = presentation.random_seed;
+    const ResampleParams params =
+        resolve_parameters(Task::Resample, shape, measured, request).resample;
+    const ResampleResult result = resample(shape, params, conditions.execution);
+    return {presentation.placed_back(result.points), presentation.length_before(result.spacing)};
 }
 
 }  // namespace
@@ -26,8 +35,7 @@ Case resampling_case() {
                 constexpr std::size_t kWanted = 360000;
                 const test::TestShape shape = test::make_cube_with_curve(
                     {.points = 80000, .noise = 0.01, .seed = conditions.seed});
-                const ResampleResult result =
-                    resampled(shape.points, kWanted, conditions.execution);
+                const Resampled result = resampled(shape.points, kWanted, conditions);
                 const auto errors = test::error_by_part(result.points, shape, 0.03);
                 const auto covered = test::coverage_of_shape(shape, result.points);
                 const auto spacing = test::nearest_neighbour_stats(result.points);
