@@ -6,6 +6,7 @@
 
 #include "core/base/random.h"
 #include "core/shape/extent.h"
+#include "core/shape/hidden_sheets.h"
 #include "core/shape/point_grid.h"
 #include "core/shape/spread.h"
 #include "core/shape/tiling.h"
@@ -91,13 +92,10 @@ constexpr double kDeviationsBelow = 1.282;
 /// Balls with no more than this times that spread tell whether it is all noise.
 constexpr double kNearQuantile = 1.2;
 
-/// Sheets that add a smaller share to the variance cannot be told from the shape of chance.
-constexpr double kLeastHidden = 0.4;
-constexpr double kMostHidden = 0.8;
-
 /// What the ball around a place of the shape says.
 struct Reading {
-    double noise = -1.0;  ///< [input length]; less than 0: nothing
+    double noise = -1.0;  ///< off the nearer of two sheets [input length]; less than 0: nothing
+    double whole = -1.0;  ///< off the one surface
     Spread spread;
 };
 
@@ -129,7 +127,9 @@ Reading noise_around(const PointGrid& grid, const Eigen::Vector3d& point, double
     if (ball.size < kFewestForPlane) return {};
     const Spread spread = spread_in(ball, heights);
     const double chance = 1 + kDeviationsBelow / std::sqrt(2 * spread.freedom);
-    return {radius * uncut(chance * spread.deviation), spread};
+    return {.noise = radius * uncut(chance * spread.deviation),
+            .whole = radius * uncut(chance * spread.whole),
+            .spread = spread};
 }
 
 /// @param points_in_ball as a rule
@@ -152,30 +152,21 @@ std::vector<Reading> read_noise(const Sampled& cloud, const PointGrid& grid, dou
     return readings;
 }
 
-double low_quantile(const std::vector<Reading>& readings) {
-    std::vector<double> deviations;
-    deviations.reserve(readings.size());
-    for (const Reading& reading : readings) deviations.push_back(reading.noise);
-    return quantile(deviations, kQuantile);
+double low_quantile(const std::vector<Reading>& readings, double Reading::*noise) {
+    std::vector<double> values;
+    values.reserve(readings.size());
+    for (const Reading& reading : readings) values.push_back(reading.*noise);
+    return quantile(values, kQuantile);
 }
 
-/// How much of the variance is not noise but two sheets that it hides, by the shape of what lies
-/// off the surface: the kurtosis of noise is 3, that of two sheets with the share s is 3 - 2 s^2.
-double share_of_hidden_sheets(const std::vector<Reading>& readings, double noise) {
-    std::vector<double> kurtoses;
+/// The spreads that are no wider than noise is, or two sheets that it hides.
+std::vector<Spread> low_spreads(const std::vector<Reading>& readings) {
+    const double low = low_quantile(readings, &Reading::whole);
+    std::vector<Spread> spreads;
     for (const Reading& reading : readings) {
-        if (reading.spread.is_parted || reading.noise > kNearQuantile * noise) continue;
-        kurtoses.push_back(reading.spread.kurtosis);
+        if (reading.whole <= kNearQuantile * low) spreads.push_back(reading.spread);
     }
-    if (kurtoses.empty()) return 0.0;
-    const double share = std::sqrt(std::max(0.0, 3 - median(kurtoses)) / 2);
-    return share < kLeastHidden ? 0.0 : std::min(share, kMostHidden);
-}
-
-/// What is noise of what looks like it in balls that hold both of two hidden sheets.
-double noise_of_hidden_sheets(const std::vector<Reading>& readings) {
-    const double noise = low_quantile(readings);
-    return noise * std::sqrt(1 - share_of_hidden_sheets(readings, noise));
+    return spreads;
 }
 
 /// A low quantile over a sample of the points, in the smallest balls that are wide enough for it;
@@ -189,17 +180,26 @@ double noise_of(const Sampled& cloud, const PointGrid& grid, double radius,
         return read_noise(cloud, grid, size, kPointsInBall * share * share, execution);
     };
     const double largest = std::max(radius, kLargestBall * measured.diagonal);
+    auto of_reading = &Reading::noise;
     for (int i = 0; i < kMostSteps && radius <= largest; ++i) {
         const std::vector<Reading> readings = read(radius);
-        const double noise = low_quantile(readings);
+        const double noise = low_quantile(readings, of_reading);
         const double wanted = kSigmasInBall * noise / radius;
-        if (!readings.empty() && wanted <= 1) {
-            const std::vector<Reading> wider = read(kWider * radius);
-            const double more = std::max(0.0, low_quantile(wider) - noise);
-            const double bends = std::min(kBentShare * more, kMostBent * noise);
-            return std::min(noise - bends, noise_of_hidden_sheets(wider));
+        if (readings.empty() || wanted > 1) {
+            radius *= std::clamp(kShareOfStep * wanted, kGrowth, kMostGrowth);
+            continue;
         }
-        radius *= std::clamp(kShareOfStep * wanted, kGrowth, kMostGrowth);
+        const std::vector<Reading> wider = read(kWider * radius);
+        const HiddenSheets hidden = find_hidden_sheets(low_spreads(wider));
+        if (hidden.is_flat_noise && of_reading == &Reading::noise) {
+            of_reading = &Reading::whole;  // what looked like two sheets is none
+            continue;
+        }
+        const double more = low_quantile(wider, of_reading);
+        const double bends = std::clamp(kBentShare * (more - noise), 0.0, kMostBent * noise);
+        const double without_sheets =
+            low_quantile(wider, &Reading::whole) * std::sqrt(1 - hidden.share);
+        return std::min({noise - bends, more, without_sheets});
     }
     return 0.0;
 }

@@ -60,6 +60,13 @@ double kurtosis_of(const std::vector<double>& heights) {
     return second > 0 ? n * fourth / (second * second) + kKurtosisOfFew / n : 3.0;
 }
 
+double share_in_middle(const std::vector<double>& heights, double variance) {
+    const double limit = Spread::kMiddle * Spread::kMiddle * variance;
+    const auto is_in_middle = [&](double h) { return h * h < limit; };
+    return static_cast<double>(std::ranges::count_if(heights, is_in_middle)) /
+           static_cast<double>(heights.size());
+}
+
 /// The points of a ball in the frame of the plane that suits them best.
 class OnPlane {
 public:
@@ -146,7 +153,9 @@ Spread spread_in(const NearPoints& ball, std::vector<double>& heights) {
     const double parted = count < kFewestForTwo ? whole : variance_of_two(heights);
     const bool is_parted = parted < kTwoSheets * whole;
     return {.deviation = std::sqrt(count / freedom * (is_parted ? parted : whole)),
+            .whole = std::sqrt(count / freedom * whole),
             .kurtosis = kurtosis_of(heights),
+            .in_middle = share_in_middle(heights, whole),
             .freedom = freedom,
             .is_parted = is_parted,
             .is_curve = points.are_curve()};

@@ -9,8 +9,13 @@ namespace lpf {
 /// How the points of a ball scatter about the quadric that suits them best, or about two where the
 /// ball holds both sides of something thin. Lengths in radii of the ball.
 struct Spread {
+    /// What lies within so many deviations of the quadric is in the middle.
+    static constexpr double kMiddle = 0.25;
+
     double deviation = 0.0;  ///< standard deviation off the quadric, or off the nearer one
+    double whole = 0.0;      ///< standard deviation off the one quadric
     double kurtosis = 3.0;   ///< of the distances off one, without what few points do to it
+    double in_middle = 0.0;  ///< share of the points within kMiddle `whole` of the one quadric
     double freedom = 0.0;    ///< points that were used, without those that the quadric took up
     bool is_parted = false;  ///< there are two
     bool is_curve = false;   ///< they lie along a line

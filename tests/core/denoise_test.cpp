@@ -112,6 +112,19 @@ TEST(Denoise, LeavesAnExactPlaneWhereItIs) {
     EXPECT_LT(result.row(2).cwiseAbs().maxCoeff(), 1e-5);
 }
 
+TEST(Denoise, TakesNoiseAwayThatIsNotGaussian) {
+    const test::TestShape sphere = test::make_sphere({.points = 10000});
+    const Points even = sphere.points + test::random_box(10000, 6, -0.03, 0.03);
+    for (const Points& points : {even, test::rounded(sphere.points, 0.06)}) {
+        const Measurements measured = measure(points, {.threads = 2});
+        const DenoiseParams params =
+            resolve_parameters(Task::Denoise, cloud_of(points), measured, {}).denoise;
+        const double before = test::error_to_shape(points, sphere).rmse;
+        const double after = test::error_to_shape(denoised(points, params), sphere).rmse;
+        EXPECT_LT(after, 0.15 * before);
+    }
+}
+
 TEST(Denoise, LeavesIsolatedPointsWhereTheyAre) {
     const test::TestShape shape = test::make_isolated_points({.points = 3000, .noise = 0.02});
     const Points result = denoised(shape.points, noise_aware(0.2));

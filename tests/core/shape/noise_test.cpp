@@ -109,6 +109,20 @@ INSTANTIATE_TEST_SUITE_P(Sigmas, NoiseOf, testing::Values(0.01, 0.03, 0.06), [](
     return "Thousandths" + std::to_string(std::lround(1000 * test.param));
 });
 
+TEST(Measure, NoiseNeedNotBeGaussian) {
+    const test::TestShape sphere = test::make_sphere({.points = 20000});
+    const Points& exact = sphere.points;
+    const Points off = test::random_box(20000, 4, 0.965, 1.035);
+    const test::NamedCloud clouds[] = {
+        {"even, off the surface", exact * off.row(0).asDiagonal()},
+        {"even, in every coordinate", exact + test::random_box(20000, 5, -0.035, 0.035)},
+        {"rounded", test::rounded(exact, 0.07)}};
+    for (const auto& [name, points] : clouds) {
+        const double noise = test::error_to_shape(points, sphere).rmse;
+        EXPECT_NEAR(measure(points, {}).noise, noise, 0.1 * noise) << name;
+    }
+}
+
 TEST(Measure, NoiseOfAPlaneIsTheSpreadAboutItsMean) {
     const Points points = test::make_plane({.points = 20000, .noise = 0.002}).points;
     EXPECT_NEAR(measure(points, {}).noise, 0.002, 0.06 * 0.002);

@@ -1,0 +1,78 @@
+#include "core/shape/hidden_sheets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace lpf {
+namespace {
+
+/// Sheets that add a smaller share to the variance cannot be told from the shape of chance.
+constexpr double kLeastHidden = 0.4;
+constexpr double kMostHidden = 0.8;
+
+constexpr int kHalvings = 20;
+
+/// The excess kurtosis of two points, and of an even distribution.
+constexpr double kTwoPoints = -2.0;
+constexpr double kEven = -1.2;
+
+/// Which share of the variance has an excess kurtosis of its own, where Gaussian noise is the rest.
+double share_with(double own, double excess) {
+    return std::min(1.0, std::sqrt(std::max(0.0, excess / own)));
+}
+
+/// How much of two sheets with a share of the variance lies in the middle, as Spread counts it.
+double middle_of_sheets(double share) {
+    const double noise = std::sqrt(1 - share);
+    const double density = std::exp(-share / (2 * noise * noise)) /
+                           (noise * std::sqrt(2 * std::numbers::pi));
+    return 2 * Spread::kMiddle * density;
+}
+
+/// The same for an even distribution that Gaussian noise blurs.
+double middle_of_even(double share) {
+    const double half = std::sqrt(3 * share);  // its width
+    const double reaches = std::sqrt(2 * std::max(1e-9, 1 - share));
+    return 2 * Spread::kMiddle * std::erf(half / reaches) / (2 * half);
+}
+
+/// The share of two sheets that leave so much in the middle.
+double share_of_sheets(double middle) {
+    double low = 0.0;
+    double high = kMostHidden;
+    for (int i = 0; i < kHalvings; ++i) {
+        const double share = (low + high) / 2;
+        (middle_of_sheets(share) > middle ? low : high) = share;
+    }
+    return low;
+}
+
+double median_kurtosis(const std::vector<Spread>& spreads) {
+    std::vector<double> values;
+    for (const Spread& spread : spreads) values.push_back(spread.kurtosis);
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+double mean_middle(const std::vector<Spread>& spreads) {
+    double sum = 0.0;
+    for (const Spread& spread : spreads) sum += spread.in_middle;
+    return sum / static_cast<double>(spreads.size());
+}
+
+}  // namespace
+
+HiddenSheets find_hidden_sheets(const std::vector<Spread>& spreads) {
+    if (spreads.empty()) return {};
+    const double excess = median_kurtosis(spreads) - 3;
+    const double share = share_with(kTwoPoints, excess);
+    if (share < kLeastHidden) return {};
+    const double middle = mean_middle(spreads);
+    const double even = middle_of_even(share_with(kEven, excess));
+    if (2 * middle > middle_of_sheets(std::min(share, kMostHidden)) + even) return {.is_flat_noise = true};
+    return {.share = std::min(std::max(share, share_of_sheets(middle)), kMostHidden)};
+}
+
+}  // namespace lpf
