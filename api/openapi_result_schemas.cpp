@@ -78,7 +78,9 @@ Json measurements_schema() {
     return object("What was measured on the input, in the unit of the file.",
                   {{"diagonal", number("Of the bounding box.")},
                    {"meanSpacing", number("Mean distance of neighbouring points.")},
-                   {"noise", number("Standard deviation off the local surface.")},
+                   {"noise", number("Standard deviation off the local surface, on average.")},
+                   {"leastNoise", number("The same where there is least of it.")},
+                   {"mostNoise", number("The same where there is most of it.")},
                    {"densityRadius", number("Radius that holds about 150 points.")}});
 }
 

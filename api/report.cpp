@@ -6,6 +6,7 @@
 #include <span>
 
 #include "api/analysis_json.h"
+#include "api/measurements_json.h"
 #include "api/parameters.h"
 #include "api/stored_json.h"
 
@@ -50,13 +51,6 @@ json shape_to_json(std::uint64_t points, const std::optional<Bounds>& bounds) {
     return result;
 }
 
-json measurements_to_json(const Measurements& m) {
-    return {{"diagonal", m.diagonal},
-            {"meanSpacing", m.mean_spacing},
-            {"noise", m.noise},
-            {"densityRadius", m.density_radius}};
-}
-
 json phases_to_json(const std::vector<std::pair<std::string, double>>& phases) {
     json result = json::array();
     for (const auto& [phase, seconds] : phases) {
@@ -91,7 +85,7 @@ json to_json(const Report& report) {
                    {"jobID", report.job_id},
                    {"processID", process_id(report.process)},
                    {"input", std::move(input)},
-                   {"measurements", measurements_to_json(report.measurements)},
+                   {"measurements", to_json(report.measurements)},
                    {"resolvedParameters", to_json(report.resolved_parameters)},
                    {"fields", report.fields},
                    {"energy", energy_to_json(report.energy)},

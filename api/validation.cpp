@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "api/measurements_json.h"
 #include "api/parameters.h"
 #include "api/stored_json.h"
 
@@ -150,13 +151,6 @@ json to_json(const NeighbourCounts& neighbours) {
             {"median", neighbours.quantile(0.5)},
             {"p90", neighbours.quantile(0.9)},
             {"histogram", histogram_of(neighbours.counts)}};
-}
-
-json to_json(const Measurements& m) {
-    return {{"diagonal", m.diagonal},
-            {"meanSpacing", m.mean_spacing},
-            {"noise", m.noise},
-            {"densityRadius", m.density_radius}};
 }
 
 }  // namespace

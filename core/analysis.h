@@ -11,6 +11,7 @@
 #include "core/learn/dictionary.h"
 #include "core/learn/lasso.h"
 #include "core/learn/sparse_code.h"
+#include "core/shape/noise_map.h"
 #include "core/shape/shape.h"
 
 namespace lpf {
@@ -33,6 +34,7 @@ struct AnalysisParams {
     /// Standard deviation of the points off the shape [input length]. LPFs keep to one sheet or
     /// curve then; 0 = unknown: an LPF is about all that its target area holds.
     double noise = 0.0;
+    NoiseMap noise_map = {};       ///< where there is more of it, and less
     bool adapt_radius = false;     ///< LPFs as large as the shape around them allows
     double least_radius = 0.0;     ///< of those that adapt [input length]
     bool principal_frames = true;  ///< start from principal directions; false = random (Sec. 3.1)

@@ -42,6 +42,7 @@ SeedingParams seeding_params(const AnalysisParams& params) {
             .spacing = params.seed_spacing,
             .target_radius = params.target_radius,
             .noise = params.noise,
+            .noise_map = params.noise_map,
             .adapt_radius = params.adapt_radius,
             .least_radius = params.least_radius,
             .random_seed = params.random_seed};
@@ -96,6 +97,10 @@ void FieldSet::place(const Points& targets, const AnalysisParams& params, const 
     Seeds seeds = place_seeds(targets, grid_, seeding, part_of(execution, 0.0, 0.5));
     frames = std::move(seeds.frames);
     pieces = std::move(seeds.pieces);
+    noise_factors.clear();
+    for (const Frame& frame : frames) {
+        noise_factors.push_back(static_cast<float>(params.noise_map.factor_at(frame.centre)));
+    }
     dimensions.assign(frames.size(), kTooFewPoints);
 
     parallel_for(part_of(execution, 0.5, 1.0), "place", "fields", size(), kFieldsPerChunk,

@@ -98,7 +98,7 @@ public:
     /// Factor on lambda for LPF j: a smaller LPF has fewer points, and more noise in its units.
     [[nodiscard]] float lambda_share(std::size_t j) const {
         const double ratio = radius_ / frames[j].radius;
-        return static_cast<float>(ratio * ratio);
+        return static_cast<float>(ratio * ratio) * noise_factors[j];
     }
 
     /// LPFs lie on the piece that they are about: their pose is that of the piece.
@@ -114,6 +114,7 @@ public:
     std::vector<Frame> frames;
     std::vector<std::uint8_t> dimensions;  ///< Dimension of each
     std::vector<Piece> pieces;             ///< what each is about; the fields start from it
+    std::vector<float> noise_factors;      ///< by which there is more noise there than usual
 
 private:
     void place(const Points& targets, const AnalysisParams& params, const Region& region,

@@ -175,7 +175,7 @@ Eigen::ArrayXf Voter::weights_by_place(std::size_t j, const TargetArea& target,
 void Voter::cast_moves(std::size_t j, const TargetArea& target, Eigen::ArrayXf weights,
                        Arrows& moves, Ballot& ballot) const {
     const float size = size_of(j);
-    const float sigma = width_ * fields_.pieces[j].steepness / size;
+    const float sigma = width_ * fields_.noise_factors[j] * fields_.pieces[j].steepness / size;
     kernels::weigh({.reliability = reliability_[j],
                     .fades = !sharp_,
                     .least_density = kLeastDensity,

@@ -64,6 +64,7 @@ enum Care : std::uint8_t { kOpen = 0, kTried = 1, kOnSurface = 2, kOnCurve = 3 }
 
 struct Seed {
     std::uint32_t place = 0;  ///< of its point, in the order of the grid
+    double noise = 0.0;       ///< there [input length]
     Frame frame;
     Piece piece;
     bool fits = false;
@@ -79,11 +80,13 @@ struct Trial {
 
 std::vector<double> radii_to_try(const SeedingParams& params) {
     if (!params.adapt_radius) return {params.radius};
+    const double most = params.noise_map.most() * params.noise;
+    const double least = params.noise_map.least() * params.noise;
     std::vector<double> radii;
     for (const double size : kSizes) {
         const double radius = size * params.radius;
-        if (size > 1 && params.noise < kLeastNoiseToAverage * params.radius) continue;
-        if (radius >= std::max(params.least_radius, least_radius(params.noise))) {
+        if (size > 1 && most < kLeastNoiseToAverage * params.radius) continue;
+        if (radius >= std::max(params.least_radius, least_radius(least))) {
             radii.push_back(radius);
         }
     }
@@ -186,23 +189,42 @@ private:
         seed.place = place;
         seed.frame.centre = points_.col(grid_.order()[place]);
         seed.frame.radius = trial.radius;
-        shift_to_shape(seed.frame, target);
-        seed.is_needless = is_cared_for(seed.frame.centre, target);
+        seed.noise = params_.noise * params_.noise_map.factor_at(seed.frame.centre);
+        if (!is_size_for(trial, seed.noise)) return seed;
+        shift_to_shape(seed, target);
+        seed.is_needless = is_cared_for(seed, target);
         if (seed.is_needless) return seed;
         if (params_.noise > 0) {  // else there are no pieces
             gather(seed.frame, target);
-            if (trial.smaller > 0 && is_enough(trial, target)) return seed;
-            seed.piece = grow(trial.radius, target, grower);
+            if (trial.smaller > 0 && is_enough(trial, seed.noise, target)) return seed;
+            seed.piece = grow(seed.frame, seed.noise, target, grower);
+        }
+        if (is_smallest_for(trial, seed.noise)) {
+            seed.fits = true;
+            return seed;
         }
         seed.fits = trial.smaller > 0 ? suits(seed, trial, target, grower)
                                       : trial.last_chance || explains_its_points(seed.piece);
         return seed;
     }
 
+    /// Whether a size is between detail that is lost and noise that is not averaged.
+    [[nodiscard]] bool is_size_for(const Trial& trial, double noise) const {
+        if (params_.noise_map.is_even() || trial.last_chance) return true;
+        if (trial.radius < least_radius(noise)) return false;
+        return trial.radius <= params_.radius || noise >= kLeastNoiseToAverage * params_.radius;
+    }
+
+    /// Whether only more noise than elsewhere forbids a smaller size.
+    [[nodiscard]] bool is_smallest_for(const Trial& trial, double noise) const {
+        return !params_.noise_map.is_even() && trial.smaller > 0 &&
+               trial.smaller * trial.radius < least_radius(noise);
+    }
+
     /// Whether the smaller size is so large that this one could hardly average better.
     /// @param target of this size
-    [[nodiscard]] bool is_enough(const Trial& trial, const TargetArea& target) const {
-        if (trial.smaller * trial.radius < kEnoughSigmas * params_.noise) return false;
+    [[nodiscard]] bool is_enough(const Trial& trial, double noise, const TargetArea& target) const {
+        if (trial.smaller * trial.radius < kEnoughSigmas * noise) return false;
         if (target.size <= kEnoughPoints) return false;
         const auto reach = static_cast<float>(trial.smaller * params_.target_radius);
         std::size_t within = 0;
@@ -228,7 +250,7 @@ private:
         smaller.radius *= trial.smaller;
         gather(smaller, target);
         const double enough = error / (kTolerance * trial.smaller * trial.smaller);
-        const Piece other = grow(smaller.radius, target, grower, static_cast<float>(enough));
+        const Piece other = grow(smaller, seed.noise, target, grower, static_cast<float>(enough));
         if (!other.exists()) return true;
         if (seed.piece.is_curve() && !other.is_curve())
             return true;  // as noise is near, it is thick
@@ -240,17 +262,17 @@ private:
     }
 
     /// The piece of what is gathered.
-    [[nodiscard]] Piece grow(double radius, const TargetArea& target, PieceGrower& grower,
-                             float enough = 0.0F) const {
-        return grower.grow(target, static_cast<float>(params_.noise / radius),
+    [[nodiscard]] Piece grow(const Frame& frame, double noise, const TargetArea& target,
+                             PieceGrower& grower, float enough = 0.0F) const {
+        return grower.grow(target, static_cast<float>(noise / frame.radius),
                            static_cast<float>(params_.target_radius), enough);
     }
 
     /// Mean shift with a kernel as wide as the noise.
-    void shift_to_shape(Frame& frame, TargetArea& target) const {
+    void shift_to_shape(Seed& seed, TargetArea& target) const {
         if (params_.noise <= 0) return;
-        Frame ball = frame;
-        ball.radius = params_.noise;
+        Frame ball = seed.frame;
+        ball.radius = seed.noise;
         grid_.gather(ball.centre, ball.radius, kShiftReach, target);
         Eigen::Vector3d at = Eigen::Vector3d::Zero();
         for (int step = 0; step < kShifts; ++step) {
@@ -265,15 +287,14 @@ private:
             }
             if (weight > 0) at = sum / weight;
         }
-        frame.centre += params_.noise * at;
+        seed.frame.centre += seed.noise * at;
     }
 
-    /// Whether most of the points about a place of the shape belong to LPFs already.
-    [[nodiscard]] bool is_cared_for(const Eigen::Vector3d& place, TargetArea& target) const {
+    /// Whether most of the points about a seed belong to LPFs already.
+    [[nodiscard]] bool is_cared_for(const Seed& seed, TargetArea& target) const {
         if (params_.noise <= 0) return false;
-        Frame ball;
-        ball.centre = place;
-        ball.radius = params_.noise;
+        Frame ball = seed.frame;
+        ball.radius = seed.noise;
         grid_.gather(ball.centre, ball.radius, kCaredWithin, target);
         std::size_t cared = 0;
         for (std::size_t i = 0; i < target.size; ++i) cared += care_[target.index[i]] > kTried;
@@ -312,7 +333,7 @@ private:
         const auto is_misfit = [&](const Seed& seed) {
             const double bias =
                 std::sqrt(static_cast<double>(seed.piece.squared_bias)) * seed.frame.radius;
-            return seed.piece.exists() && bias > kMostBias * params_.noise;
+            return seed.piece.exists() && bias > kMostBias * seed.noise;
         };
         for_each(seeds_, execution, [&](Seed& seed, TargetArea& target) {
             if (is_misfit(seed)) return;

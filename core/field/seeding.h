@@ -8,6 +8,7 @@
 #include "core/field/piece.h"
 #include "core/field/target_area.h"
 #include "core/shape/box.h"
+#include "core/shape/noise_map.h"
 
 namespace lpf {
 
@@ -19,6 +20,7 @@ struct SeedingParams {
     /// Standard deviation of the points off the shape [input length]; 0 = unknown: an LPF is about
     /// all that its target area holds.
     double noise = 0.0;
+    NoiseMap noise_map = {};    ///< where there is more of it, and less
     bool adapt_radius = false;  ///< LPFs as large as the shape around them allows
     double least_radius = 0.0;  ///< of those that adapt [input length]
     std::uint64_t random_seed = 1;

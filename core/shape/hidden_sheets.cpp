@@ -11,6 +11,9 @@ namespace {
 constexpr double kLeastHidden = 0.4;
 constexpr double kMostHidden = 0.8;
 
+/// Chance parts flat noise in fewer of the balls.
+constexpr double kPartedByChance = 0.35;
+
 constexpr int kHalvings = 20;
 
 /// The excess kurtosis of two points, and of an even distribution.
@@ -25,8 +28,8 @@ double share_with(double own, double excess) {
 /// How much of two sheets with a share of the variance lies in the middle, as Spread counts it.
 double middle_of_sheets(double share) {
     const double noise = std::sqrt(1 - share);
-    const double density = std::exp(-share / (2 * noise * noise)) /
-                           (noise * std::sqrt(2 * std::numbers::pi));
+    const double density =
+        std::exp(-share / (2 * noise * noise)) / (noise * std::sqrt(2 * std::numbers::pi));
     return 2 * Spread::kMiddle * density;
 }
 
@@ -56,6 +59,11 @@ double median_kurtosis(const std::vector<Spread>& spreads) {
     return *middle;
 }
 
+double share_parted(const std::vector<Spread>& spreads) {
+    return static_cast<double>(std::ranges::count_if(spreads, &Spread::is_parted)) /
+           static_cast<double>(spreads.size());
+}
+
 double mean_middle(const std::vector<Spread>& spreads) {
     double sum = 0.0;
     for (const Spread& spread : spreads) sum += spread.in_middle;
@@ -66,13 +74,18 @@ double mean_middle(const std::vector<Spread>& spreads) {
 
 HiddenSheets find_hidden_sheets(const std::vector<Spread>& spreads) {
     if (spreads.empty()) return {};
+    HiddenSheets found;
+    found.are_parted = share_parted(spreads) >= kPartedByChance;
     const double excess = median_kurtosis(spreads) - 3;
     const double share = share_with(kTwoPoints, excess);
-    if (share < kLeastHidden) return {};
+    if (share < kLeastHidden) return found;
     const double middle = mean_middle(spreads);
-    const double even = middle_of_even(share_with(kEven, excess));
-    if (2 * middle > middle_of_sheets(std::min(share, kMostHidden)) + even) return {.is_flat_noise = true};
-    return {.share = std::min(std::max(share, share_of_sheets(middle)), kMostHidden)};
+    const double of_sheets = middle_of_sheets(std::min(share, kMostHidden));
+    const double of_flat_noise = middle_of_even(share_with(kEven, excess));
+    found.is_flat_noise = !found.are_parted && 2 * middle > of_sheets + of_flat_noise;
+    if (found.is_flat_noise) return found;
+    found.share = std::min(std::max(share, share_of_sheets(middle)), kMostHidden);
+    return found;
 }
 
 }  // namespace lpf

@@ -9,6 +9,7 @@ namespace lpf {
 /// What balls whose points scatter more than noise should, or not as it should, hold.
 struct HiddenSheets {
     double share = 0.0;          ///< of the variance that is the distance of two sheets, not noise
+    bool are_parted = false;     ///< they are so far apart that many balls tell them apart
     bool is_flat_noise = false;  ///< there are none: noise itself is flatter than a Gaussian
 };
 

@@ -4,9 +4,10 @@
 #include <cmath>
 #include <vector>
 
-#include "core/base/random.h"
 #include "core/shape/extent.h"
 #include "core/shape/hidden_sheets.h"
+#include "core/shape/noise_reading.h"
+#include "core/shape/noise_variation.h"
 #include "core/shape/point_grid.h"
 #include "core/shape/spread.h"
 #include "core/shape/tiling.h"
@@ -18,7 +19,6 @@ constexpr std::size_t kSpacingSample = 4096;
 constexpr std::size_t kPointsInBall = 150;
 constexpr int kMostDoublings = 32;    // from a cell to the whole shape
 constexpr double kPointsInCell = 40;  // of the grid that they are looked for in, at most
-constexpr std::size_t kFewestForPlane = 8;
 
 /// Points of the first balls that the noise is looked for in.
 constexpr std::size_t kPointsInSmallBall = 50;
@@ -47,6 +47,11 @@ constexpr double kMostBent = 0.3;
 /// A ball larger than this share of the diagonal shows the whole shape, not what it is made of.
 constexpr double kLargestBall = 0.25;
 
+/// Where noise varies, balls do not grow so large. Less than this share of the spacing may be
+/// detail of a shape that has none.
+constexpr double kLargestVaried = 0.1;
+constexpr double kLeastVaried = 0.5;
+
 /// A cloud that is not in memory is measured in so many boxes of about so many points each, with
 /// all around them within so many radii and sigma, which a look at a few larger ones tells.
 constexpr std::size_t kBoxes = 256;
@@ -56,33 +61,7 @@ constexpr double kPointsInRoughBox = 8192;
 constexpr double kRadiiAround = 1.5;
 constexpr double kSigmasAround = 6.0;
 
-double quantile(std::vector<double>& values, double share) {
-    if (values.empty()) return 0.0;
-    const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
-    std::nth_element(values.begin(), values.begin() + at, values.end());
-    return values[static_cast<std::size_t>(at)];
-}
-
 double median(std::vector<double>& values) { return quantile(values, 0.5); }
-
-/// A cloud, and those of its points that all others near them belong to; empty: it is whole.
-struct Sampled {
-    const Points& points;
-    std::vector<Eigen::Index> complete = {};
-
-    /// Up to `count` of them spread over the cloud, the same for every run.
-    [[nodiscard]] std::vector<Eigen::Index> some(std::size_t count) const {
-        const std::size_t n =
-            complete.empty() ? static_cast<std::size_t>(points.cols()) : complete.size();
-        std::vector<Eigen::Index> chosen;
-        Random random(n, 0x3e45);
-        for (std::size_t i = 0; i < std::min(n, count); ++i) {
-            const std::size_t k = n <= count ? i : random.below(n);
-            chosen.push_back(complete.empty() ? static_cast<Eigen::Index>(k) : complete[k]);
-        }
-        return chosen;
-    }
-};
 
 /// Edges and thin parts add to the spread, so that less than the median is noise. Of balls on a
 /// plane, the spread at this quantile lies so many standard deviations below the mean.
@@ -92,116 +71,70 @@ constexpr double kDeviationsBelow = 1.282;
 /// Balls with no more than this times that spread tell whether it is all noise.
 constexpr double kNearQuantile = 1.2;
 
-/// What the ball around a place of the shape says.
-struct Reading {
-    double noise = -1.0;  ///< off the nearer of two sheets [input length]; less than 0: nothing
-    double whole = -1.0;  ///< off the one surface
-    Spread spread;
-};
+using Readings = std::vector<NoiseReading>;
 
-Eigen::Vector3d mean_of(const NearPoints& ball) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < ball.size; ++i) {
-        sum += Eigen::Vector3d(ball.x[i], ball.y[i], ball.z[i]);
-    }
-    return sum / static_cast<double>(ball.size);
-}
-
-/// Whether most of the points of a ball are where its centre is.
-bool is_heap(const NearPoints& ball) {
-    std::size_t equal = 0;
-    for (std::size_t i = 0; i < ball.size; ++i) {
-        equal += ball.x[i] == 0 && ball.y[i] == 0 && ball.z[i] == 0;
-    }
-    return 2 * equal > ball.size;
-}
-
-/// The spread about a place of the shape; nothing where a point is alone, or one of a heap of equal
-/// ones.
-Reading noise_around(const PointGrid& grid, const Eigen::Vector3d& point, double radius,
-                     NearPoints& ball, std::vector<double>& heights) {
-    grid.gather(point, radius, 1.0F, ball);
-    if (ball.size < kFewestForPlane || is_heap(ball)) return {};
-    // The point is off the shape; the mean of those around it is nearer.
-    grid.gather(point + radius * mean_of(ball), radius, 1.0F, ball);
-    if (ball.size < kFewestForPlane) return {};
-    const Spread spread = spread_in(ball, heights);
-    const double chance = 1 + kDeviationsBelow / std::sqrt(2 * spread.freedom);
-    return {.noise = radius * uncut(chance * spread.deviation),
-            .whole = radius * uncut(chance * spread.whole),
-            .spread = spread};
-}
-
-/// @param points_in_ball as a rule
-std::vector<Reading> read_noise(const Sampled& cloud, const PointGrid& grid, double radius,
-                                double points_in_ball, const Execution& execution) {
-    const double balls = std::clamp(kPointsToLookAt / points_in_ball, kFewestBalls, kMostBalls);
-    const std::vector<Eigen::Index> chosen = cloud.some(static_cast<std::size_t>(balls));
-    std::vector<Reading> readings(chosen.size());
-    parallel_for(execution, chosen.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
-        NearPoints ball;
-        std::vector<double> heights;
-        for (std::size_t i = begin; i < end; ++i) {
-            readings[i] = noise_around(grid, cloud.points.col(chosen[i]), radius, ball, heights);
-        }
-    });
-    std::erase_if(readings, [](const Reading& reading) { return reading.noise < 0; });
-    // Off a curve, noise has two directions, and the smaller spread of the two says too little.
-    const auto is_curve = [](const Reading& reading) { return reading.spread.is_curve; };
-    if (!std::ranges::all_of(readings, is_curve)) std::erase_if(readings, is_curve);
-    return readings;
-}
-
-double low_quantile(const std::vector<Reading>& readings, double Reading::*noise) {
+/// The noise at a low quantile, by one of the deviations of the spreads.
+double low_quantile(const Readings& readings, double Spread::*deviation) {
     std::vector<double> values;
     values.reserve(readings.size());
-    for (const Reading& reading : readings) values.push_back(reading.*noise);
+    for (const NoiseReading& reading : readings) {
+        values.push_back(reading.noise(reading.spread.*deviation, kDeviationsBelow));
+    }
     return quantile(values, kQuantile);
 }
 
 /// The spreads that are no wider than noise is, or two sheets that it hides.
-std::vector<Spread> low_spreads(const std::vector<Reading>& readings) {
-    const double low = low_quantile(readings, &Reading::whole);
+std::vector<Spread> low_spreads(const Readings& readings) {
+    const double limit = kNearQuantile * low_quantile(readings, &Spread::whole);
     std::vector<Spread> spreads;
-    for (const Reading& reading : readings) {
-        if (reading.whole <= kNearQuantile * low) spreads.push_back(reading.spread);
+    for (const NoiseReading& reading : readings) {
+        if (reading.noise(reading.spread.whole, kDeviationsBelow) <= limit) {
+            spreads.push_back(reading.spread);
+        }
     }
     return spreads;
 }
+
+struct NoiseLevel {
+    double noise = 0.0;
+    double radius = 0.0;  ///< of the balls that it was found in; 0: in none
+};
 
 /// A low quantile over a sample of the points, in the smallest balls that are wide enough for it;
 /// 0 where none are: all is thinner than it is rough.
 /// @param radius   of the smallest balls that may do
 /// @param measured tells how dense the cloud is, and how large
-double noise_of(const Sampled& cloud, const PointGrid& grid, double radius,
-                const Measurements& measured, const Execution& execution) {
+NoiseLevel noise_of(const SampledCloud& cloud, const PointGrid& grid, double radius,
+                    const Measurements& measured, const Execution& execution) {
     const auto read = [&](double size) {
         const double share = size / measured.density_radius;
-        return read_noise(cloud, grid, size, kPointsInBall * share * share, execution);
+        const double balls = kPointsToLookAt / (kPointsInBall * share * share);
+        const double some = std::clamp(balls, kFewestBalls, kMostBalls);
+        return read_noise(cloud, grid, size, static_cast<std::size_t>(some), execution);
     };
     const double largest = std::max(radius, kLargestBall * measured.diagonal);
-    auto of_reading = &Reading::noise;
+    auto deviation = &Spread::deviation;
     for (int i = 0; i < kMostSteps && radius <= largest; ++i) {
-        const std::vector<Reading> readings = read(radius);
-        const double noise = low_quantile(readings, of_reading);
+        const Readings readings = read(radius);
+        const double noise = low_quantile(readings, deviation);
         const double wanted = kSigmasInBall * noise / radius;
         if (readings.empty() || wanted > 1) {
             radius *= std::clamp(kShareOfStep * wanted, kGrowth, kMostGrowth);
             continue;
         }
-        const std::vector<Reading> wider = read(kWider * radius);
+        const Readings wider = read(kWider * radius);
         const HiddenSheets hidden = find_hidden_sheets(low_spreads(wider));
-        if (hidden.is_flat_noise && of_reading == &Reading::noise) {
-            of_reading = &Reading::whole;  // what looked like two sheets is none
+        if (hidden.is_flat_noise && deviation == &Spread::deviation) {
+            deviation = &Spread::whole;  // what looked like two sheets is none
             continue;
         }
-        const double more = low_quantile(wider, of_reading);
+        const double more = low_quantile(wider, deviation);
         const double bends = std::clamp(kBentShare * (more - noise), 0.0, kMostBent * noise);
         const double without_sheets =
-            low_quantile(wider, &Reading::whole) * std::sqrt(1 - hidden.share);
-        return std::min({noise - bends, more, without_sheets});
+            low_quantile(wider, &Spread::whole) * std::sqrt(1 - hidden.share);
+        return {std::min({noise - bends, more, without_sheets}), radius};
     }
-    return 0.0;
+    return {};
 }
 
 /// Distances of a point to those around it [input length].
@@ -238,7 +171,7 @@ Surroundings surroundings(const PointGrid& grid, const Eigen::Vector3d& point, d
 /// Distances to the nearest other position, and to the point that makes the ball full.
 /// @param cell of the grid
 /// @returns the median radius of the smallest ball to look for noise in
-double measure_spacing(const Sampled& cloud, const PointGrid& grid, double cell,
+double measure_spacing(const SampledCloud& cloud, const PointGrid& grid, double cell,
                        Measurements& result, const Execution& execution) {
     const std::vector<Eigen::Index> chosen = cloud.some(kSpacingSample);
     const std::size_t k = std::min(kPointsInBall, result.points);
@@ -270,7 +203,7 @@ double measure_spacing(const Sampled& cloud, const PointGrid& grid, double cell,
     return radius > 0 ? radius : result.mean_spacing;
 }
 
-Measurements measure(const Sampled& cloud, const Execution& execution) {
+Measurements measure(const SampledCloud& cloud, const Execution& execution) {
     const Points& points = cloud.points;
     Measurements result;
     result.points = static_cast<std::size_t>(points.cols());
@@ -280,7 +213,17 @@ Measurements measure(const Sampled& cloud, const Execution& execution) {
     const double cell = cell_of_some_points(points, kPointsInCell, execution);
     const PointGrid grid(points, cell, execution);
     const double radius = measure_spacing(cloud, grid, cell, result, execution);
-    result.noise = noise_of(cloud, grid, radius, result, execution);
+    const NoiseLevel level = noise_of(cloud, grid, radius, result, execution);
+    result.noise = level.noise;
+    if (level.radius <= 0) return result;
+    auto variation = find_noise_variation(cloud, grid,
+                                          {.radius = level.radius,
+                                           .largest = kLargestVaried * result.diagonal,
+                                           .least = kLeastVaried * result.mean_spacing},
+                                          execution);
+    if (!variation) return result;
+    result.noise = variation->usual;
+    result.noise_map = std::move(variation->map);
     return result;
 }
 
@@ -290,7 +233,7 @@ Measurements measure(const PointSource& source, const Excerpt& excerpt,
     Points points;
     source.read(excerpt.points, points);
     source.let_go();
-    Sampled cloud{points};
+    SampledCloud cloud{points};
     for (Eigen::Index i = 0; i < points.cols(); ++i) {
         if (distance_to(excerpt.boxes, points.col(i)) <= 0) cloud.complete.push_back(i);
     }
@@ -300,7 +243,7 @@ Measurements measure(const PointSource& source, const Excerpt& excerpt,
 }  // namespace
 
 Measurements measure(const Points& points, const Execution& execution) {
-    return measure(Sampled{points}, execution);
+    return measure(SampledCloud{points}, execution);
 }
 
 Measurements measure(const PointSource& source, const Execution& execution) {

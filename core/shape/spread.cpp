@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/base/normal_equations.h"
 
@@ -19,6 +20,11 @@ constexpr double kFewestForTwo = 50;  // of fewer points, chance makes two group
 constexpr double kCurve = 0.3;
 
 constexpr std::size_t kMostInBall = 3000;
+
+/// Of neighbours. Their heights differ by the median of a normal difference: a few pairs across
+/// two sheets make no difference.
+constexpr std::size_t kMostPairs = 96;
+constexpr double kMedianDifference = 0.954;
 
 /// A quadric takes up so many degrees of freedom; fewer points than these get a plane.
 constexpr double kInQuadric = 6;
@@ -118,6 +124,15 @@ public:
         });
     }
 
+    /// Places on the plane.
+    [[nodiscard]] std::vector<Eigen::Vector2d> places() const {
+        std::vector<Eigen::Vector2d> places;
+        for_each([&](const Eigen::Vector3d& p) {
+            places.emplace_back((axes_ * (p - mean_)).tail<2>());
+        });
+        return places;
+    }
+
 private:
     template <typename Body>
     void for_each(const Body& body) const {
@@ -159,6 +174,29 @@ Spread spread_in(const NearPoints& ball, std::vector<double>& heights) {
             .freedom = freedom,
             .is_parted = is_parted,
             .is_curve = points.are_curve()};
+}
+
+double deviation_between_neighbours(const NearPoints& ball, std::vector<double>& heights) {
+    const OnPlane points(ball);
+    points.heights(heights);
+    if (points.count() >= kFewestForQuadric) points.take_off_quadric(heights);
+    const std::vector<Eigen::Vector2d> places = points.places();
+    const std::size_t stride = 1 + places.size() / kMostPairs;
+    std::vector<double> differences;
+    for (std::size_t i = 0; i < places.size(); i += stride) {
+        std::size_t nearest = i;
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k < places.size(); ++k) {
+            const double squared = (places[k] - places[i]).squaredNorm();
+            if (squared >= least || k == i) continue;
+            least = squared;
+            nearest = k;
+        }
+        differences.push_back(std::abs(heights[nearest] - heights[i]));
+    }
+    const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+    std::ranges::nth_element(differences, middle);
+    return *middle / kMedianDifference;
 }
 
 // A ball of radius R about a place of a surface holds a disk of area pi (R^2 - h^2) of what noise

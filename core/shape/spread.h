@@ -25,6 +25,11 @@ struct Spread {
 /// @param heights a buffer that is used again and again
 [[nodiscard]] Spread spread_in(const NearPoints& ball, std::vector<double>& heights);
 
+/// The standard deviation off one quadric as it shows in how far the heights of neighbours on it
+/// differ: detail that the quadric misses, they have in common. @param ball as above
+[[nodiscard]] double deviation_between_neighbours(const NearPoints& ball,
+                                                  std::vector<double>& heights);
+
 /// The deviation of noise of which a ball has cut off so much that this one is left. Both are in
 /// radii of the ball.
 [[nodiscard]] double uncut(double deviation);

@@ -18,7 +18,11 @@ Validation fine() {
     Validation v;
     v.format = "ply";
     v.points = 10'000;
-    v.measurements = {10'000, 2.0, 0.01, 0.001, 0.1};
+    v.measurements = {.points = 10'000,
+                      .diagonal = 2.0,
+                      .mean_spacing = 0.01,
+                      .noise = 0.001,
+                      .density_radius = 0.1};
     v.neighbours = {0.06, {20, 40, 50, 60}};
     v.resolved_parameters = {{"atoms", 16.0, true, "rule"}, {"radius", 0.06, true, "rule"}};
     v.work.fields = 1500;

@@ -35,9 +35,8 @@ TEST(HiddenSheets, AreNotFoundInNoise) {
 }
 
 TEST(HiddenSheets, AreNotFoundInNoiseWithLongTails) {
-    const HiddenSheets found = find_in([](Random& random) {
-        return random.normal() * (random.uniform() < 0.1 ? 2.0 : 0.5);
-    });
+    const HiddenSheets found = find_in(
+        [](Random& random) { return random.normal() * (random.uniform() < 0.1 ? 2.0 : 0.5); });
     EXPECT_EQ(found.share, 0.0);
     EXPECT_FALSE(found.is_flat_noise);
 }
@@ -46,9 +45,8 @@ class HiddenSheetsApart : public testing::TestWithParam<double> {};
 
 TEST_P(HiddenSheetsApart, HaveTheirShareOfTheVariance) {
     const double half = GetParam() / 2;
-    const HiddenSheets found = find_in([&](Random& random) {
-        return random.normal() + (random.uniform() < 0.5 ? half : -half);
-    });
+    const HiddenSheets found = find_in(
+        [&](Random& random) { return random.normal() + (random.uniform() < 0.5 ? half : -half); });
     EXPECT_FALSE(found.is_flat_noise);
     EXPECT_NEAR(found.share, half * half / (1 + half * half), 0.05);
 }
@@ -65,8 +63,8 @@ TEST(HiddenSheets, AreNotFoundInEvenNoise) {
 }
 
 TEST(HiddenSheets, AreNotFoundInEvenNoiseOfTwoCoordinates) {
-    const HiddenSheets found = find_in(
-        [](Random& random) { return random.uniform(-1, 1) + 0.4 * random.uniform(-1, 1); });
+    const HiddenSheets found =
+        find_in([](Random& random) { return random.uniform(-1, 1) + 0.4 * random.uniform(-1, 1); });
     EXPECT_TRUE(found.is_flat_noise);
     EXPECT_EQ(found.share, 0.0);
 }
