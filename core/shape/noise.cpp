@@ -47,9 +47,7 @@ constexpr double kMostBent = 0.3;
 /// A ball larger than this share of the diagonal shows the whole shape, not what it is made of.
 constexpr double kLargestBall = 0.25;
 
-/// Where noise varies, balls do not grow so large. Less than this share of the spacing may be
-/// detail of a shape that has none.
-constexpr double kLargestVaried = 0.1;
+/// What varies by less than this share of the spacing may be detail of a shape without noise.
 constexpr double kLeastVaried = 0.5;
 
 /// A cloud that is not in memory is measured in so many boxes of about so many points each, with
@@ -217,8 +215,9 @@ Measurements measure(const SampledCloud& cloud, const Execution& execution) {
     result.noise = level.noise;
     if (level.radius <= 0) return result;
     auto variation = find_noise_variation(cloud, grid,
-                                          {.radius = level.radius,
-                                           .largest = kLargestVaried * result.diagonal,
+                                          {.lowest = level.noise,
+                                           .radius = level.radius,
+                                           .largest = kLargestBall * result.diagonal,
                                            .least = kLeastVaried * result.mean_spacing},
                                           execution);
     if (!variation) return result;

@@ -61,8 +61,7 @@ NoiseReading read_noise(const PointGrid& grid, const Eigen::Vector3d& point, dou
 }
 
 std::vector<NoiseReading> read_noise(const SampledCloud& cloud, const PointGrid& grid,
-                                     double radius, std::size_t balls,
-                                     const Execution& execution) {
+                                     double radius, std::size_t balls, const Execution& execution) {
     const std::vector<Eigen::Index> chosen = cloud.some(balls);
     std::vector<NoiseReading> readings(chosen.size());
     parallel_for(execution, chosen.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {

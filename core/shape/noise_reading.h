@@ -27,7 +27,7 @@ struct NoiseScratch {
 /// How the points in the ball around a place of a shape scatter.
 struct NoiseReading {
     Eigen::Vector3d place = Eigen::Vector3d::Zero();  ///< the point that the ball was put around
-    double radius = 0.0;                              ///< of the ball [input length]; 0: it says nothing
+    double radius = 0.0;  ///< of the ball [input length]; 0: it says nothing
     Spread spread = {};
 
     /// The noise that a deviation [radius] of these points stands for [input length].
@@ -40,8 +40,8 @@ struct NoiseReading {
                                       double radius, NoiseScratch& scratch);
 
 /// Around some points of a cloud, with readings that say nothing left out, and those of curves
-/// where not most are: off a curve, noise has two directions, and the smaller spread of the two says
-/// too little.
+/// where not most are: off a curve, noise has two directions, and the smaller spread of the two
+/// says too little.
 [[nodiscard]] std::vector<NoiseReading> read_noise(const SampledCloud& cloud, const PointGrid& grid,
                                                    double radius, std::size_t balls,
                                                    const Execution& execution);

@@ -22,6 +22,13 @@ constexpr double kDeviationsBelow = 0.674;
 constexpr double kSigmasInBall = 3.0;
 constexpr double kGrowth = 1.3;
 
+/// A ball so much wider holds no more than so many times the noise.
+constexpr double kWider = 1.6;
+constexpr double kMostMore = 1.4;
+
+/// Of a shape that scatters itself, fewer of the balls show noise: about it nothing is known.
+constexpr double kLeastSeen = 0.5;
+
 /// Noise varies where its upper tenth is so many times its lower one.
 constexpr double kVaries = 2.0;
 
@@ -32,10 +39,11 @@ constexpr double kMostFactor = 8.0;
 using Readings = std::vector<NoiseReading>;
 using Numbers = std::vector<std::uint32_t>;
 
-Points places_of(const Readings& readings) {
-    Points places(3, static_cast<Eigen::Index>(readings.size()));
-    for (std::size_t i = 0; i < readings.size(); ++i) {
-        places.col(static_cast<Eigen::Index>(i)) = readings[i].place;
+template <typename T, typename PlaceOf>
+Points places_of(const std::vector<T>& all, const PlaceOf& place_of) {
+    Points places(3, static_cast<Eigen::Index>(all.size()));
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        places.col(static_cast<Eigen::Index>(i)) = place_of(all[i]);
     }
     return places;
 }
@@ -64,15 +72,24 @@ double noise_by(const NoiseReading& reading, double Spread::*deviation) {
 }
 
 /// Whether the noise about the balls varies, by one of the deviations of their spreads.
-bool seems_to_vary(const Readings& readings, const std::vector<Numbers>& near,
-                   double Spread::*deviation, double least) {
+bool varies_by(double Spread::*deviation, const Readings& readings,
+               const std::vector<Numbers>& neighbourhoods, double least) {
     std::vector<double> noises;
-    for (const Numbers& numbers : near) {
+    for (const Numbers& near : neighbourhoods) {
         std::vector<double> values;
-        for (const std::uint32_t i : numbers) values.push_back(noise_by(readings[i], deviation));
+        for (const std::uint32_t i : near) values.push_back(noise_by(readings[i], deviation));
         noises.push_back(quantile(values, kQuantile));
     }
     return vary(std::move(noises), least);
+}
+
+bool seems_to_vary(const Readings& readings, double least) {
+    if (readings.size() < kBallsNear) return false;
+    const auto near = neighbourhoods(
+        places_of(readings, [](const NoiseReading& reading) { return reading.place; }));
+    // Where sheets part or meet, one of the two does not vary.
+    return varies_by(&Spread::deviation, readings, near, least) &&
+           varies_by(&Spread::whole, readings, near, least);
 }
 
 /// A ball at a place that is wide enough for its noise, by how much the heights of neighbours
@@ -82,29 +99,50 @@ struct Look {
     double between = 0.0;  ///< [input length]
 };
 
-Look look_at(const PointGrid& grid, const NoiseReading& first, double largest,
-             NoiseScratch& scratch) {
-    Look look{first};
-    for (double radius = first.radius;; radius *= kGrowth) {
-        const NoiseReading now = read_noise(grid, first.place, radius, scratch);
-        if (now.radius <= 0) return look;
-        look.reading = now;
-        const double deviation = deviation_between_neighbours(scratch.ball, scratch.heights);
-        look.between = look.reading.noise(deviation, kDeviationsBelow);
-        if (kSigmasInBall * look.between <= radius || kGrowth * radius > largest) return look;
-    }
+/// @param of_curves whether it may lie along a line
+std::optional<Look> look_through(const PointGrid& grid, const Eigen::Vector3d& place, double radius,
+                                 bool of_curves, NoiseScratch& scratch) {
+    Look look{read_noise(grid, place, radius, scratch)};
+    const bool is_body = look.reading.spread.is_curve && !of_curves;
+    if (look.reading.radius <= 0 || is_body) return std::nullopt;
+    const double deviation = deviation_between_neighbours(scratch.ball, scratch.heights);
+    look.between = look.reading.noise(deviation, kDeviationsBelow);
+    return look;
 }
 
+/// Nothing where the shape itself scatters: in what is thinner than a ball, as a twig, and what
+/// fills space, as leaves, there is the more of it the wider the ball.
+std::optional<Look> look_at(const PointGrid& grid, const NoiseReading& first, double largest,
+                            bool of_curves, NoiseScratch& scratch) {
+    for (double radius = first.radius; radius <= largest; radius *= kGrowth) {
+        const auto look = look_through(grid, first.place, radius, of_curves, scratch);
+        if (!look) return std::nullopt;
+        if (kSigmasInBall * look->between > radius) continue;
+        const auto wider = look_through(grid, first.place, kWider * radius, of_curves, scratch);
+        if (!wider || wider->between > kMostMore * look->between) return std::nullopt;
+        return look;
+    }
+    return std::nullopt;
+}
+
+/// Where there is noise to see.
 std::vector<Look> look_closely(const PointGrid& grid, const Readings& readings, double largest,
                                const Execution& execution) {
-    std::vector<Look> looks(readings.size());
+    const auto is_curve = [](const NoiseReading& reading) { return reading.spread.is_curve; };
+    const auto curves = static_cast<std::size_t>(std::ranges::count_if(readings, is_curve));
+    const bool of_curves = 2 * curves > readings.size();
+    std::vector<std::optional<Look>> looks(readings.size());
     parallel_for(execution, looks.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
         NoiseScratch scratch;
         for (std::size_t i = begin; i < end; ++i) {
-            looks[i] = look_at(grid, readings[i], largest, scratch);
+            looks[i] = look_at(grid, readings[i], largest, of_curves, scratch);
         }
     });
-    return looks;
+    std::vector<Look> seen;
+    for (const auto& look : looks) {
+        if (look) seen.push_back(*look);
+    }
+    return seen;
 }
 
 /// The noise of a place by the balls near it, without two sheets that they hold.
@@ -115,8 +153,9 @@ double noise_about(const Numbers& near, const std::vector<Look>& looks) {
     std::vector<double> noises;
     for (const std::uint32_t i : near) {
         const auto& [reading, between] = looks[i];
-        const bool is_parted = sheets.are_parted && reading.spread.is_parted;
-        noises.push_back(is_parted ? std::min(between, noise_by(reading, &Spread::deviation)) : between);
+        noises.push_back(sheets.are_parted && reading.spread.is_parted
+                             ? std::min(between, noise_by(reading, &Spread::deviation))
+                             : between);
     }
     return std::sqrt(1 - sheets.share) * quantile(noises, kQuantile);
 }
@@ -127,20 +166,19 @@ std::optional<NoiseVariation> find_noise_variation(const SampledCloud& cloud, co
                                                    const NoiseSearch& search,
                                                    const Execution& execution) {
     const Readings readings = read_noise(cloud, grid, search.radius, kBalls, execution);
-    if (readings.size() < kBallsNear) return std::nullopt;
-    const Points places = places_of(readings);
-    const std::vector<Numbers> near = neighbourhoods(places);
-    // Where sheets part or meet, one of the two does not vary.
-    if (!seems_to_vary(readings, near, &Spread::deviation, search.least) ||
-        !seems_to_vary(readings, near, &Spread::whole, search.least)) {
+    if (!seems_to_vary(readings, search.least)) return std::nullopt;
+    const std::vector<Look> looks = look_closely(grid, readings, search.largest, execution);
+    if (static_cast<double>(looks.size()) < kLeastSeen * static_cast<double>(readings.size())) {
         return std::nullopt;
     }
-    const std::vector<Look> looks = look_closely(grid, readings, search.largest, execution);
+    Points places = places_of(looks, [](const Look& look) { return look.reading.place; });
     std::vector<double> noises;
-    for (const Numbers& numbers : near) noises.push_back(noise_about(numbers, looks));
+    for (const Numbers& near : neighbourhoods(places)) {
+        noises.push_back(std::max(search.lowest, noise_about(near, looks)));
+    }
     if (!vary(noises, search.least)) return std::nullopt;
-    const double usual = std::accumulate(noises.begin(), noises.end(), 0.0) /
-                         static_cast<double>(noises.size());
+    const double usual =
+        std::accumulate(noises.begin(), noises.end(), 0.0) / static_cast<double>(noises.size());
     for (double& noise : noises) noise = std::clamp(noise / usual, kLeastFactor, kMostFactor);
     return NoiseVariation{usual, NoiseMap(places, std::move(noises))};
 }

@@ -15,7 +15,8 @@ struct NoiseVariation {
 
 /// Where noise is looked for. Lengths in the input's unit.
 struct NoiseSearch {
-    double radius = 0.0;   ///< of balls that the least noise fits into
+    double lowest = 0.0;   ///< noise that there is, where there is least
+    double radius = 0.0;   ///< of balls that it fits into
     double largest = 0.0;  ///< that they may grow to, where there is more
     double least = 0.0;    ///< less than this is none to speak of
 };

@@ -10,6 +10,7 @@
 #include "core/auto_parameters.h"
 #include "core/base/error.h"
 #include "tests/core/clouds.h"
+#include "tests/core/uneven_noise.h"
 #include "tests/support/metrics.h"
 #include "tests/support/shapes.h"
 #include "tests/support/solids.h"
@@ -122,6 +123,19 @@ TEST(Denoise, TakesNoiseAwayThatIsNotGaussian) {
         const double before = test::error_to_shape(points, sphere).rmse;
         const double after = test::error_to_shape(denoised(points, params), sphere).rmse;
         EXPECT_LT(after, 0.15 * before);
+    }
+}
+
+TEST(Denoise, TakesNoiseAwayThatVaries) {
+    for (const char* name : {"sphere", "curve_on_surface", "cube"}) {
+        const test::TestShape exact = test::make_shape(name, {.points = 30000});
+        const Points points = test::make_uneven(exact).points;
+        const Measurements measured = measure(points, {.threads = 2});
+        const DenoiseParams params =
+            resolve_parameters(Task::Denoise, cloud_of(points), measured, {}).denoise;
+        const double before = test::error_to_shape(points, exact).rmse;
+        const double after = test::error_to_shape(denoised(points, params), exact).rmse;
+        EXPECT_LT(after, 0.25 * before) << name;
     }
 }
 

@@ -76,6 +76,19 @@ TEST(Spread, TellsACurve) {
     EXPECT_TRUE(spread_in(ball, heights).is_curve);
 }
 
+TEST(Spread, BetweenNeighboursIsTheNoise) {
+    std::vector<double> heights;
+    EXPECT_NEAR(deviation_between_neighbours(sheets_in_ball(2500, 0.1, 0), heights), 0.1, 0.02);
+}
+
+TEST(Spread, BetweenNeighboursLeavesOutDetail) {
+    NearPoints ball = sheets_in_ball(2500, 0.02, 0);
+    for (std::size_t i = 0; i < ball.size; ++i) ball.z[i] += 0.1F * std::sin(8 * ball.x[i]);
+    std::vector<double> heights;
+    EXPECT_GT(spread_in(ball, heights).whole, 0.06);
+    EXPECT_NEAR(deviation_between_neighbours(ball, heights), 0.02, 0.007);
+}
+
 TEST(Spread, IsOffTheNearerOfTwoPlanesThatStandApart) {
     const Spread spread = spread_of(2500, 0.05, 0.2);
     EXPECT_TRUE(spread.is_parted);
