@@ -5,6 +5,7 @@
 
 #include "core/base/error.h"
 #include "core/base/kernels.h"
+#include "core/field/seed_sizes.h"
 #include "core/field/seeding.h"
 #include "core/learn/pose.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/field/seeding.h"
+#include "core/field/seed_sizes.h"
 #include "core/field_set.h"
 
 namespace lpf {

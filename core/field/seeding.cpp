@@ -6,18 +6,11 @@
 
 #include "core/base/raise.h"
 #include "core/field/piece_growth.h"
+#include "core/field/seed_sizes.h"
 #include "core/shape/poisson_sampling.h"
 
 namespace lpf {
 namespace {
-
-/// Sizes that are tried, in radii, from large to small; none smaller than so many sigma, except
-/// for the last that is left.
-constexpr double kSizes[] = {2.8, 2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25};
-constexpr double kLeastSigmasOfSize = 2.4;
-
-/// Where there is less noise [radius], LPFs larger than asked for only lose detail.
-constexpr double kLeastNoiseToAverage = 0.03;
 
 /// Errors are estimates: a larger LPF may promise so much more squared error than a smaller one.
 constexpr double kTolerance = 1.25;
@@ -77,22 +70,6 @@ struct Trial {
     double smaller = 0.0;      ///< ratio of the next radius to it; 0: there is no smaller one
     bool last_chance = false;  ///< whatever is left gets an LPF now
 };
-
-std::vector<double> radii_to_try(const SeedingParams& params) {
-    if (!params.adapt_radius) return {params.radius};
-    const double most = params.noise_map.most() * params.noise;
-    const double least = params.noise_map.least() * params.noise;
-    std::vector<double> radii;
-    for (const double size : kSizes) {
-        const double radius = size * params.radius;
-        if (size > 1 && most < kLeastNoiseToAverage * params.radius) continue;
-        if (radius >= std::max(params.least_radius, least_radius(least))) {
-            radii.push_back(radius);
-        }
-    }
-    if (radii.empty()) radii.push_back(params.radius);
-    return radii;
-}
 
 /// Tries one size after the other: seeds whose radius suits stay; where none does, the points are
 /// taken care of by seeds of the next smaller radius.
@@ -190,7 +167,7 @@ private:
         seed.frame.centre = points_.col(grid_.order()[place]);
         seed.frame.radius = trial.radius;
         seed.noise = params_.noise * params_.noise_map.factor_at(seed.frame.centre);
-        if (!is_size_for(trial, seed.noise)) return seed;
+        if (!trial.last_chance && !suits_noise(params_, trial.radius, seed.noise)) return seed;
         shift_to_shape(seed, target);
         seed.is_needless = is_cared_for(seed, target);
         if (seed.is_needless) return seed;
@@ -199,26 +176,14 @@ private:
             if (trial.smaller > 0 && is_enough(trial, seed.noise, target)) return seed;
             seed.piece = grow(seed.frame, seed.noise, target, grower);
         }
-        if (is_smallest_for(trial, seed.noise)) {
+        if (trial.smaller > 0 &&
+            is_last_for_noise(params_, trial.smaller * trial.radius, seed.noise)) {
             seed.fits = true;
             return seed;
         }
         seed.fits = trial.smaller > 0 ? suits(seed, trial, target, grower)
                                       : trial.last_chance || explains_its_points(seed.piece);
         return seed;
-    }
-
-    /// Whether a size is between detail that is lost and noise that is not averaged.
-    [[nodiscard]] bool is_size_for(const Trial& trial, double noise) const {
-        if (params_.noise_map.is_even() || trial.last_chance) return true;
-        if (trial.radius < least_radius(noise)) return false;
-        return trial.radius <= params_.radius || noise >= kLeastNoiseToAverage * params_.radius;
-    }
-
-    /// Whether only more noise than elsewhere forbids a smaller size.
-    [[nodiscard]] bool is_smallest_for(const Trial& trial, double noise) const {
-        return !params_.noise_map.is_even() && trial.smaller > 0 &&
-               trial.smaller * trial.radius < least_radius(noise);
     }
 
     /// Whether the smaller size is so large that this one could hardly average better.
@@ -408,10 +373,6 @@ private:
 };
 
 }  // namespace
-
-double least_radius(double noise) { return kLeastSigmasOfSize * noise; }
-
-double largest_radius(const SeedingParams& params) { return radii_to_try(params).front(); }
 
 Seeds place_seeds(const Points& points, const PointGrid& grid, const SeedingParams& params,
                   const Execution& execution) {

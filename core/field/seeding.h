@@ -27,12 +27,6 @@ struct SeedingParams {
     Region region = {};  ///< LPFs are only placed where their target areas reach into it
 };
 
-/// The radius of the largest LPFs that the parameters may lead to [input length].
-[[nodiscard]] double largest_radius(const SeedingParams& params);
-
-/// LPFs that adapt are no smaller in so much noise, but for the last that is left [input length].
-[[nodiscard]] double least_radius(double noise);
-
 /// LPFs that are placed but have no pose yet.
 struct Seeds {
     std::vector<Frame> frames;

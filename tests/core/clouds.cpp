@@ -1,8 +1,5 @@
 #include "tests/core/clouds.h"
 
-#include <array>
-#include <set>
-
 #include "core/base/random.h"
 
 namespace lpf::test {
@@ -55,17 +52,6 @@ Points random_box(std::size_t count, std::uint64_t seed, double low, double high
     Random random(seed);
     for (double& value : points.reshaped()) value = random.uniform(low, high);
     return points;
-}
-
-Points rounded(const Points& points, double step) {
-    std::set<std::array<double, 3>> places;
-    for (const auto point : (step * (points / step).array().round()).matrix().colwise()) {
-        places.insert({point.x(), point.y(), point.z()});
-    }
-    Points unique(3, static_cast<Eigen::Index>(places.size()));
-    Eigen::Index i = 0;
-    for (const auto& place : places) unique.col(i++) = Eigen::Vector3d(place.data());
-    return unique;
 }
 
 Points lattice(int side) {

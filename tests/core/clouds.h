@@ -20,9 +20,6 @@ inline void PrintTo(const NamedCloud& cloud, std::ostream* out) { *out << cloud.
 /// `count` points, uniform in the box [low, high)^3.
 Points random_box(std::size_t count, std::uint64_t seed, double low = 0.0, double high = 1.0);
 
-/// The points with coordinates that are multiples of a step, each place once.
-Points rounded(const Points& points, double step);
-
 /// The lattice [0, side)^3 with step 1.
 Points lattice(int side);
 

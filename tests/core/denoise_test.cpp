@@ -10,8 +10,8 @@
 #include "core/auto_parameters.h"
 #include "core/base/error.h"
 #include "tests/core/clouds.h"
-#include "tests/core/uneven_noise.h"
 #include "tests/support/metrics.h"
+#include "tests/support/noises.h"
 #include "tests/support/shapes.h"
 #include "tests/support/solids.h"
 
@@ -115,7 +115,7 @@ TEST(Denoise, LeavesAnExactPlaneWhereItIs) {
 
 TEST(Denoise, TakesNoiseAwayThatIsNotGaussian) {
     const test::TestShape sphere = test::make_sphere({.points = 10000});
-    const Points even = sphere.points + test::random_box(10000, 6, -0.03, 0.03);
+    const Points even = test::with_even_noise(sphere.points, 0.02);
     for (const Points& points : {even, test::rounded(sphere.points, 0.06)}) {
         const Measurements measured = measure(points, {.threads = 2});
         const DenoiseParams params =
@@ -123,19 +123,6 @@ TEST(Denoise, TakesNoiseAwayThatIsNotGaussian) {
         const double before = test::error_to_shape(points, sphere).rmse;
         const double after = test::error_to_shape(denoised(points, params), sphere).rmse;
         EXPECT_LT(after, 0.15 * before);
-    }
-}
-
-TEST(Denoise, TakesNoiseAwayThatVaries) {
-    for (const char* name : {"sphere", "curve_on_surface", "cube"}) {
-        const test::TestShape exact = test::make_shape(name, {.points = 30000});
-        const Points points = test::make_uneven(exact).points;
-        const Measurements measured = measure(points, {.threads = 2});
-        const DenoiseParams params =
-            resolve_parameters(Task::Denoise, cloud_of(points), measured, {}).denoise;
-        const double before = test::error_to_shape(points, exact).rmse;
-        const double after = test::error_to_shape(denoised(points, params), exact).rmse;
-        EXPECT_LT(after, 0.25 * before) << name;
     }
 }
 

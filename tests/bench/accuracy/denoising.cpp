@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/auto_parameters.h"
+#include "tests/bench/accuracy/denoised.h"
 #include "tests/support/metrics.h"
 #include "tests/support/shapes.h"
 
@@ -15,17 +15,6 @@ using test::Vector3d;
 
 /// "Near edges" is within so many standard deviations of the noise.
 constexpr double kSigmasNearEdges = 3.0;
-
-Points denoised(const Points& points, const Conditions& conditions) {
-    const Presentation& presentation = conditions.presentation;
-    const Shape shape{{presentation.placed(points), {}}, {}};
-    const Measurements measured = measure(shape.cloud.points, conditions.execution);
-    ParameterRequest request;
-    request.random_seed = presentation.random_seed;
-    const DenoiseParams params =
-        resolve_parameters(Task::Denoise, shape, measured, request).denoise;
-    return presentation.placed_back(denoise(shape, params, conditions.execution).points);
-}
 
 double rmse(const Points& points, const TestShape& shape) {
     return test::error_to_shape(points, shape).rmse;

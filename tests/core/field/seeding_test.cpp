@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/field/seed_sizes.h"
 #include "core/shape/poisson_sampling.h"
 #include "tests/core/clouds.h"
 #include "tests/support/shapes.h"
@@ -117,6 +118,23 @@ TEST(Seeding, TakesLargeRadiiOnAPlane) {
     const auto smaller =
         std::ranges::count_if(seeds, [](const Frame& seed) { return seed.radius < kRadius; });
     EXPECT_LE(static_cast<double>(smaller), 0.1 * static_cast<double>(seeds.size()));
+}
+
+TEST(Seeding, TakesLargerRadiiWhereThereIsMoreNoise) {
+    Points points = test::make_plane({.points = 40000}).points;
+    points.row(2) = test::random_box(40000, 3, -0.01, 0.01).row(2);
+    Points places(3, 2);
+    places << -0.5, 0.5, 0, 0, 0, 0;
+    SeedingParams params = params_for(0.006);
+    params.noise_map = NoiseMap(places, {1.0, 20.0});
+    const Seeds seeds = place_seeds(points, grid_of(points), params, {.threads = 2});
+    for (std::size_t j = 0; j < seeds.frames.size(); ++j) {
+        const Frame& frame = seeds.frames[j];
+        if (std::abs(frame.centre.x()) < 0.5) continue;
+        const double noise = static_cast<double>(seeds.pieces[j].noise) * frame.radius;
+        EXPECT_NEAR(noise, frame.centre.x() < 0 ? 0.006 : 0.12, 0.06);
+        EXPECT_GE(frame.radius, frame.centre.x() < 0 ? 0.0 : 1.4 * kRadius);
+    }
 }
 
 TEST(Seeding, TakesSmallRadiiWhereTheShapeBends) {

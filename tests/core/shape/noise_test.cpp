@@ -8,6 +8,7 @@
 #include "core/base/error.h"
 #include "tests/core/clouds.h"
 #include "tests/support/metrics.h"
+#include "tests/support/noises.h"
 #include "tests/support/shapes.h"
 
 namespace lpf {
@@ -115,7 +116,7 @@ TEST(Measure, NoiseNeedNotBeGaussian) {
     const Points off = test::random_box(20000, 4, 0.965, 1.035);
     const test::NamedCloud clouds[] = {
         {"even, off the surface", exact * off.row(0).asDiagonal()},
-        {"even, in every coordinate", exact + test::random_box(20000, 5, -0.035, 0.035)},
+        {"even, in every coordinate", test::with_even_noise(exact, 0.02)},
         {"rounded", test::rounded(exact, 0.07)}};
     for (const auto& [name, points] : clouds) {
         const double noise = test::error_to_shape(points, sphere).rmse;

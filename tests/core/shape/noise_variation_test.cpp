@@ -6,7 +6,8 @@
 
 #include "core/base/random.h"
 #include "core/shape/noise.h"
-#include "tests/core/uneven_noise.h"
+#include "tests/support/metrics.h"
+#include "tests/support/noises.h"
 #include "tests/support/shapes.h"
 
 namespace lpf {
@@ -15,13 +16,13 @@ namespace {
 class UnevenNoise : public testing::TestWithParam<const char*> {};
 
 TEST_P(UnevenNoise, IsMeasuredPlaceByPlace) {
-    const test::UnevenScan scan = test::make_uneven(test::make_shape(GetParam(), {.points = 30000}));
+    const Points exact = test::make_shape(GetParam(), {.points = 30000}).points;
+    const test::UnevenScan scan = test::with_uneven_noise(exact, 0.0015 * test::diagonal_of(exact));
     const Measurements measured = measure(scan.points, {.threads = 2});
     ASSERT_FALSE(measured.noise_map.is_even());
     double logs = 0.0;
     for (Eigen::Index i = 0; i < scan.points.cols(); ++i) {
-        const double noise =
-            measured.noise * measured.noise_map.factor_at(scan.points.col(i));
+        const double noise = measured.noise * measured.noise_map.factor_at(scan.points.col(i));
         logs += std::pow(std::log(noise / scan.noise[static_cast<std::size_t>(i)]), 2);
     }
     EXPECT_LT(std::sqrt(logs / static_cast<double>(scan.points.cols())), 0.25)
