@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/shape/extent.h"
@@ -95,7 +96,7 @@ std::vector<Spread> low_spreads(const Readings& readings) {
 
 struct NoiseLevel {
     double noise = 0.0;
-    double radius = 0.0;  ///< of the balls that it was found in; 0: in none
+    Readings readings = {};  ///< that it was found in
 };
 
 /// A low quantile over a sample of the points, in the smallest balls that are wide enough for it;
@@ -113,7 +114,7 @@ NoiseLevel noise_of(const SampledCloud& cloud, const PointGrid& grid, double rad
     const double largest = std::max(radius, kLargestBall * measured.diagonal);
     auto deviation = &Spread::deviation;
     for (int i = 0; i < kMostSteps && radius <= largest; ++i) {
-        const Readings readings = read(radius);
+        Readings readings = read(radius);
         const double noise = low_quantile(readings, deviation);
         const double wanted = kSigmasInBall * noise / radius;
         if (readings.empty() || wanted > 1) {
@@ -130,7 +131,7 @@ NoiseLevel noise_of(const SampledCloud& cloud, const PointGrid& grid, double rad
         const double bends = std::clamp(kBentShare * (more - noise), 0.0, kMostBent * noise);
         const double without_sheets =
             low_quantile(wider, &Spread::whole) * std::sqrt(1 - hidden.share);
-        return {std::min({noise - bends, more, without_sheets}), radius};
+        return {std::min({noise - bends, more, without_sheets}), std::move(readings)};
     }
     return {};
 }
@@ -213,12 +214,10 @@ Measurements measure(const SampledCloud& cloud, const Execution& execution) {
     const double radius = measure_spacing(cloud, grid, cell, result, execution);
     const NoiseLevel level = noise_of(cloud, grid, radius, result, execution);
     result.noise = level.noise;
-    if (level.radius <= 0) return result;
-    auto variation = find_noise_variation(cloud, grid,
+    auto variation = find_noise_variation(level.readings, cloud, grid,
                                           {.lowest = level.noise,
-                                           .radius = level.radius,
-                                           .largest = kLargestBall * result.diagonal,
-                                           .least = kLeastVaried * result.mean_spacing},
+                                           .least = kLeastVaried * result.mean_spacing,
+                                           .largest_ball = kLargestBall * result.diagonal},
                                           execution);
     if (!variation) return result;
     result.noise = variation->usual;

@@ -10,7 +10,7 @@
 namespace lpf {
 namespace {
 
-constexpr std::size_t kBalls = 1200;
+constexpr std::size_t kBalls = 1600;  // that are looked at closely
 
 /// The noise of a place is a low quantile in so many balls about it: edges and thin parts add to
 /// the spread. Chance alone puts it so many deviations below the mean.
@@ -99,51 +99,66 @@ struct Look {
     double between = 0.0;  ///< [input length]
 };
 
-/// @param of_curves whether it may lie along a line
-std::optional<Look> look_through(const PointGrid& grid, const Eigen::Vector3d& place, double radius,
-                                 bool of_curves, NoiseScratch& scratch) {
-    Look look{read_noise(grid, place, radius, scratch)};
-    const bool is_body = look.reading.spread.is_curve && !of_curves;
-    if (look.reading.radius <= 0 || is_body) return std::nullopt;
-    const double deviation = deviation_between_neighbours(scratch.ball, scratch.heights);
-    look.between = look.reading.noise(deviation, kDeviationsBelow);
-    return look;
-}
+/// Looks closely, ball by ball.
+class Looking {
+public:
+    Looking(const Readings& readings, const PointGrid& grid, double largest_ball)
+        : grid_(grid), radius_(readings.front().radius), largest_(largest_ball) {
+        const auto is_curve = [](const NoiseReading& reading) { return reading.spread.is_curve; };
+        const auto curves = static_cast<std::size_t>(std::ranges::count_if(readings, is_curve));
+        of_curves_ = 2 * curves > readings.size();
+    }
 
-/// Nothing where the shape itself scatters: in what is thinner than a ball, as a twig, and what
-/// fills space, as leaves, there is the more of it the wider the ball.
-std::optional<Look> look_at(const PointGrid& grid, const NoiseReading& first, double largest,
-                            bool of_curves, NoiseScratch& scratch) {
-    for (double radius = first.radius; radius <= largest; radius *= kGrowth) {
-        const auto look = look_through(grid, first.place, radius, of_curves, scratch);
-        if (!look) return std::nullopt;
-        if (kSigmasInBall * look->between > radius) continue;
-        const auto wider = look_through(grid, first.place, kWider * radius, of_curves, scratch);
-        if (!wider || wider->between > kMostMore * look->between) return std::nullopt;
+    /// Where there is noise to see, of some points.
+    [[nodiscard]] std::vector<Look> run(const SampledCloud& cloud,
+                                        const std::vector<Eigen::Index>& points,
+                                        const Execution& execution) const {
+        std::vector<std::optional<Look>> looks(points.size());
+        parallel_for(execution, looks.size(), 4,
+                     [&](std::size_t begin, std::size_t end, std::size_t) {
+                         NoiseScratch scratch;
+                         for (std::size_t i = begin; i < end; ++i) {
+                             looks[i] = look_at(cloud.points.col(points[i]), scratch);
+                         }
+                     });
+        std::vector<Look> seen;
+        for (const auto& look : looks) {
+            if (look) seen.push_back(*look);
+        }
+        return seen;
+    }
+
+private:
+    /// Nothing where the shape itself scatters: in what is thinner than a ball, as a twig, and what
+    /// fills space, as leaves, there is the more of it the wider the ball.
+    [[nodiscard]] std::optional<Look> look_at(const Eigen::Vector3d& place,
+                                              NoiseScratch& scratch) const {
+        for (double radius = radius_; radius <= largest_; radius *= kGrowth) {
+            const auto look = look_through(place, radius, scratch);
+            if (!look) return std::nullopt;
+            if (kSigmasInBall * look->between > radius) continue;
+            const auto wider = look_through(place, kWider * radius, scratch);
+            if (!wider || wider->between > kMostMore * look->between) return std::nullopt;
+            return look;
+        }
+        return std::nullopt;
+    }
+
+    [[nodiscard]] std::optional<Look> look_through(const Eigen::Vector3d& place, double radius,
+                                                   NoiseScratch& scratch) const {
+        Look look{read_noise(grid_, place, radius, scratch)};
+        const bool is_body = look.reading.spread.is_curve && !of_curves_;
+        if (look.reading.radius <= 0 || is_body) return std::nullopt;
+        const double deviation = deviation_between_neighbours(scratch.ball, scratch.heights);
+        look.between = look.reading.noise(deviation, kDeviationsBelow);
         return look;
     }
-    return std::nullopt;
-}
 
-/// Where there is noise to see.
-std::vector<Look> look_closely(const PointGrid& grid, const Readings& readings, double largest,
-                               const Execution& execution) {
-    const auto is_curve = [](const NoiseReading& reading) { return reading.spread.is_curve; };
-    const auto curves = static_cast<std::size_t>(std::ranges::count_if(readings, is_curve));
-    const bool of_curves = 2 * curves > readings.size();
-    std::vector<std::optional<Look>> looks(readings.size());
-    parallel_for(execution, looks.size(), 4, [&](std::size_t begin, std::size_t end, std::size_t) {
-        NoiseScratch scratch;
-        for (std::size_t i = begin; i < end; ++i) {
-            looks[i] = look_at(grid, readings[i], largest, of_curves, scratch);
-        }
-    });
-    std::vector<Look> seen;
-    for (const auto& look : looks) {
-        if (look) seen.push_back(*look);
-    }
-    return seen;
-}
+    const PointGrid& grid_;
+    double radius_;
+    double largest_;
+    bool of_curves_;  // the shape is made of them
+};
 
 /// The noise of a place by the balls near it, without two sheets that they hold.
 double noise_about(const Numbers& near, const std::vector<Look>& looks) {
@@ -162,13 +177,15 @@ double noise_about(const Numbers& near, const std::vector<Look>& looks) {
 
 }  // namespace
 
-std::optional<NoiseVariation> find_noise_variation(const SampledCloud& cloud, const PointGrid& grid,
+std::optional<NoiseVariation> find_noise_variation(const Readings& readings,
+                                                   const SampledCloud& cloud, const PointGrid& grid,
                                                    const NoiseSearch& search,
                                                    const Execution& execution) {
-    const Readings readings = read_noise(cloud, grid, search.radius, kBalls, execution);
     if (!seems_to_vary(readings, search.least)) return std::nullopt;
-    const std::vector<Look> looks = look_closely(grid, readings, search.largest, execution);
-    if (static_cast<double>(looks.size()) < kLeastSeen * static_cast<double>(readings.size())) {
+    const std::vector<Eigen::Index> points = cloud.some(kBalls);
+    const std::vector<Look> looks =
+        Looking(readings, grid, search.largest_ball).run(cloud, points, execution);
+    if (static_cast<double>(looks.size()) < kLeastSeen * static_cast<double>(points.size())) {
         return std::nullopt;
     }
     Points places = places_of(looks, [](const Look& look) { return look.reading.place; });

@@ -13,18 +13,17 @@ struct NoiseVariation {
     NoiseMap map;        ///< relative to it
 };
 
-/// Where noise is looked for. Lengths in the input's unit.
+/// What noise is looked for. Lengths in the input's unit.
 struct NoiseSearch {
-    double lowest = 0.0;   ///< noise that there is, where there is least
-    double radius = 0.0;   ///< of balls that it fits into
-    double largest = 0.0;  ///< that they may grow to, where there is more
-    double least = 0.0;    ///< less than this is none to speak of
+    double lowest = 0.0;        ///< that there is where there is least
+    double least = 0.0;         ///< less than this is none to speak of
+    double largest_ball = 0.0;  ///< that it may need
 };
 
 /// Whether noise varies over a cloud, and how; nothing where it hardly does.
-[[nodiscard]] std::optional<NoiseVariation> find_noise_variation(const SampledCloud& cloud,
-                                                                 const PointGrid& grid,
-                                                                 const NoiseSearch& search,
-                                                                 const Execution& execution);
+/// @param readings all over the cloud, in balls that the lowest noise fits into
+[[nodiscard]] std::optional<NoiseVariation> find_noise_variation(
+    const std::vector<NoiseReading>& readings, const SampledCloud& cloud, const PointGrid& grid,
+    const NoiseSearch& search, const Execution& execution);
 
 }  // namespace lpf

@@ -19,7 +19,10 @@ struct Scan {
 
     explicit Scan(const std::string& name)
         : exact(test::make_shape(name, {.points = 30000})),
-          cloud{{test::with_uneven_noise(exact.points, kLeast * test::diagonal_of(exact.points)).points, {}}, {}},
+          cloud{{test::with_uneven_noise(exact.points, kLeast * test::diagonal_of(exact.points))
+                     .points,
+                 {}},
+                {}},
           measured(measure(cloud.cloud.points, {.threads = 2})) {}
 
     [[nodiscard]] DenoiseParams to_denoise() const {
