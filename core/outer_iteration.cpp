@@ -13,6 +13,11 @@ namespace {
 /// edges, than what LPFs leave anywhere.
 constexpr double kNoiseBetween = 0.2;
 
+/// Whether the noise is known, and the points go to where the shape is in one step.
+bool goes_all_the_way(const DenoiseParams& params) {
+    return params.analysis.noise > 0 && params.gamma == 0;
+}
+
 }  // namespace
 
 AnalysisResult find_moves(const Shape& current, const DenoiseParams& params, const Region& region,
@@ -34,7 +39,8 @@ double step_length(const DenoiseParams& params) {
 }
 
 bool is_deconvolved(const DenoiseParams& params) {
-    return params.analysis.noise > 0 && params.gamma == 0;
+    // It knows one width of noise, and would take more than that for bends.
+    return goes_all_the_way(params) && params.analysis.noise_map.is_even();
 }
 
 bool goes_on(const DenoiseParams& params, const std::vector<double>& rms_moves, double bent) {
@@ -57,10 +63,11 @@ void prepare_next(Dictionary dictionary, DenoiseParams& params) {
     params.analysis.initial_dictionary = std::move(dictionary);
     // What was smaller than noise allowed is gone: smaller LPFs would find nothing more.
     params.analysis.least_radius =
-        std::max(params.analysis.least_radius, least_radius(params.analysis.noise));
+        std::max(params.analysis.least_radius,
+                 least_radius(params.analysis.noise_map.least() * params.analysis.noise));
     params.analysis.noise *= kNoiseBetween;
     // What noise had carried beyond borders and ends is there now; more would shorten them.
-    if (is_deconvolved(params)) params.slides = false;
+    if (goes_all_the_way(params)) params.slides = false;
 }
 
 }  // namespace lpf

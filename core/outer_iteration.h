@@ -25,8 +25,8 @@ using TakeMoves = std::function<void(const std::vector<std::uint32_t>& order, co
 /// @returns what a move is multiplied with [input length / radius]
 [[nodiscard]] double step_length(const DenoiseParams& params);
 
-/// Whether the first outer iteration ends with a deconvolution: where the noise is known, and the
-/// full step is taken.
+/// Whether the first outer iteration ends with a deconvolution: where the noise is known and the
+/// same everywhere, and the full step is taken.
 [[nodiscard]] bool is_deconvolved(const DenoiseParams& params);
 
 /// Whether another outer iteration is worth it after those that moved the points so far.
