@@ -53,6 +53,7 @@ double share_of_sheets(double middle) {
 
 double median_kurtosis(const std::vector<Spread>& spreads) {
     std::vector<double> values;
+    values.reserve(spreads.size());
     for (const Spread& spread : spreads) values.push_back(spread.kurtosis);
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::ranges::nth_element(values, middle);

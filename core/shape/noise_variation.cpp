@@ -134,7 +134,7 @@ private:
     [[nodiscard]] std::optional<Look> look_at(const Eigen::Vector3d& place,
                                               NoiseScratch& scratch) const {
         for (double radius = radius_; radius <= largest_; radius *= kGrowth) {
-            const auto look = look_through(place, radius, scratch);
+            auto look = look_through(place, radius, scratch);
             if (!look) return std::nullopt;
             if (kSigmasInBall * look->between > radius) continue;
             const auto wider = look_through(place, kWider * radius, scratch);
