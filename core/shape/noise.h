@@ -14,7 +14,7 @@ struct Measurements {
     double diagonal = 0.0;      ///< of the bounding box [input length]
     double mean_spacing = 0.0;  ///< mean distance to the nearest other position [input length]
     double noise = 0.0;         ///< sigma, standard deviation off the local surface [input length]
-    NoiseMap noise_map = {};    ///< where there is more noise, and less
+    NoiseMap noise_map = {};    ///< where there is more noise, and less; `noise` is the mean
     double density_radius = 0.0;  ///< radius whose ball holds about 150 points [input length]
 };
 

@@ -23,8 +23,7 @@ NoiseMap::NoiseMap(const Points& places, std::vector<double> factors)
 
 double NoiseMap::factor_at(const Eigen::Vector3d& place) const {
     if (is_even()) return 1.0;
-    thread_local std::vector<SpatialIndex::Neighbour> near;
-    known_->index.nearest(place, kPlaces, near);
+    const auto near = known_->index.nearest(place, kPlaces);
     // The farthest of them counts for nothing, so that the mean jumps nowhere.
     const double reach = std::sqrt(near.back().squared_distance);
     double sum = 0.0;
