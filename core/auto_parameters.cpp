@@ -53,8 +53,10 @@ public:
         // An analysis on its own is that of the paper; what moves points keeps to pieces of the
         // shape.
         const bool keeps_to_pieces = !mesh_ && task_ != Task::Analyze;
-        if (keeps_to_pieces) a.noise = m_.noise;
-        if (keeps_to_pieces) a.noise_map = m_.noise_map;
+        if (keeps_to_pieces) {
+            a.noise = m_.noise;
+            a.noise_map = m_.noise_map;
+        }
         a.adapt_radius = keeps_to_pieces && !q_.radius;
         a.probing = q_.probing.value_or(auto_probing());
         if (q_.dictionary) {

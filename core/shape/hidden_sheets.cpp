@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/shape/quantile.h"
+
 namespace lpf {
 namespace {
 
@@ -55,9 +57,7 @@ double median_kurtosis(const std::vector<Spread>& spreads) {
     std::vector<double> values;
     values.reserve(spreads.size());
     for (const Spread& spread : spreads) values.push_back(spread.kurtosis);
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
+    return median(values);
 }
 
 double share_parted(const std::vector<Spread>& spreads) {

@@ -10,6 +10,7 @@
 #include "core/shape/noise_reading.h"
 #include "core/shape/noise_variation.h"
 #include "core/shape/point_grid.h"
+#include "core/shape/quantile.h"
 #include "core/shape/spread.h"
 #include "core/shape/tiling.h"
 
@@ -59,8 +60,6 @@ constexpr std::size_t kRoughBoxes = 16;
 constexpr double kPointsInRoughBox = 8192;
 constexpr double kRadiiAround = 1.5;
 constexpr double kSigmasAround = 6.0;
-
-double median(std::vector<double>& values) { return quantile(values, 0.5); }
 
 /// Edges and thin parts add to the spread, so that less than the median is noise. Of balls on a
 /// plane, the spread at this quantile lies so many standard deviations below the mean.

@@ -79,11 +79,4 @@ std::vector<NoiseReading> read_noise(const SampledCloud& cloud, const PointGrid&
     return readings;
 }
 
-double quantile(std::vector<double>& values, double share) {
-    if (values.empty()) return 0.0;
-    const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
-    std::nth_element(values.begin(), values.begin() + at, values.end());
-    return values[static_cast<std::size_t>(at)];
-}
-
 }  // namespace lpf

@@ -46,7 +46,4 @@ struct NoiseReading {
                                                    double radius, std::size_t balls,
                                                    const Execution& execution);
 
-/// The value that this share of the values are below; reorders them. 0 where there are none.
-[[nodiscard]] double quantile(std::vector<double>& values, double share);
-
 }  // namespace lpf

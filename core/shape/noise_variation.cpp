@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/shape/hidden_sheets.h"
+#include "core/shape/quantile.h"
 #include "core/shape/spatial_index.h"
 
 namespace lpf {

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/base/radix_sort.h"
+#include "core/shape/quantile.h"
 #include "core/shape/spatial_index.h"
 
 namespace lpf {
@@ -38,12 +39,6 @@ std::vector<double> mean_distances(const Points& points, const Execution& execut
                      }
                  });
     return distances;
-}
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 /// The distance above which a point is isolated.

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/normal_equations.h"
+#include "core/shape/quantile.h"
 
 namespace lpf {
 namespace {
@@ -194,9 +195,7 @@ double deviation_between_neighbours(const NearPoints& ball, std::vector<double>&
         }
         differences.push_back(std::abs(heights[nearest] - heights[i]));
     }
-    const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-    std::ranges::nth_element(differences, middle);
-    return *middle / kMedianDifference;
+    return median(differences) / kMedianDifference;
 }
 
 // A ball of radius R about a place of a surface holds a disk of area pi (R^2 - h^2) of what noise

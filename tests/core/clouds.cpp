@@ -54,6 +54,14 @@ Points random_box(std::size_t count, std::uint64_t seed, double low, double high
     return points;
 }
 
+Points moved(const Points& points, const std::vector<Eigen::Vector3f>& moves) {
+    Points all = points;
+    for (std::size_t i = 0; i < moves.size(); ++i) {
+        all.col(static_cast<Eigen::Index>(i)) += moves[i].cast<double>();
+    }
+    return all;
+}
+
 Points lattice(int side) {
     Points points(3, Eigen::Index{side} * side * side);
     for (Eigen::Index i = 0; i < points.cols(); ++i) {

@@ -20,6 +20,9 @@ inline void PrintTo(const NamedCloud& cloud, std::ostream* out) { *out << cloud.
 /// `count` points, uniform in the box [low, high)^3.
 Points random_box(std::size_t count, std::uint64_t seed, double low = 0.0, double high = 1.0);
 
+/// Each point after its move.
+Points moved(const Points& points, const std::vector<Eigen::Vector3f>& moves);
+
 /// The lattice [0, side)^3 with step 1.
 Points lattice(int side);
 

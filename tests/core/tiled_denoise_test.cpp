@@ -9,6 +9,7 @@
 #include "core/auto_parameters.h"
 #include "core/base/error.h"
 #include "core/shape/tiling.h"
+#include "tests/core/clouds.h"
 #include "tests/support/metrics.h"
 #include "tests/support/shapes.h"
 
@@ -17,14 +18,6 @@ namespace {
 
 constexpr TilingParams kSmallTiles{
     .points = 6000, .patches = 12, .patch_points = 3000, .count_duplicates = true};
-
-Points with(const Points& points, const std::vector<Eigen::Vector3f>& moves) {
-    Points moved = points;
-    for (std::size_t i = 0; i < moves.size(); ++i) {
-        moved.col(static_cast<Eigen::Index>(i)) += moves[i].cast<double>();
-    }
-    return moved;
-}
 
 /// A noisy shape with its automatic parameters.
 struct Scan {
@@ -81,7 +74,7 @@ TEST_P(TiledDenoiseOf, IsAsGoodAsTheWholeAndHasNoSeams) {
     for (const std::uint64_t draw : {1, 2, 3, 4}) {
         scan.params.analysis.random_seed = draw;
         const Points whole = denoise(scan.cloud, scan.params, {.threads = 2}).points;
-        const Points tiled = with(scan.shape.points, scan.tiled().moves);
+        const Points tiled = test::moved(scan.shape.points, scan.tiled().moves);
         of_whole += test::error_to_shape(whole, scan.shape).rmse;
         of_tiles += test::error_to_shape(tiled, scan.shape).rmse;
         near_whole += test::error_to_shape(whole, scan.shape, near).rmse;
@@ -155,7 +148,7 @@ TEST(TiledDenoise, ASecondIterationStartsFromWhereTheFirstEnded) {
     ASSERT_EQ(tiled.rms_moves.size(), 2U);
     EXPECT_LT(tiled.rms_moves[1], 0.5 * tiled.rms_moves[0]);
     const DenoiseResult whole = denoise(scan.cloud, scan.params, {.threads = 2});
-    EXPECT_LT(test::error_to_shape(with(scan.shape.points, tiled.moves), scan.shape).rmse,
+    EXPECT_LT(test::error_to_shape(test::moved(scan.shape.points, tiled.moves), scan.shape).rmse,
               1.05 * test::error_to_shape(whole.points, scan.shape).rmse);
 }
 

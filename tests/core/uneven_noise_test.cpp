@@ -3,6 +3,7 @@
 
 #include "core/auto_parameters.h"
 #include "core/tiled_denoise.h"
+#include "tests/core/clouds.h"
 #include "tests/support/metrics.h"
 #include "tests/support/noises.h"
 
@@ -72,10 +73,7 @@ TEST(UnevenScan, IsDenoisedAsWellInTiles) {
     const Points whole = denoise(scan.cloud, params, {.threads = 2}).points;
     const TiledDenoising done = denoise_tiles(PointsInMemory(scan.cloud.cloud.points), params,
                                               {.threads = 2}, {.points = 4000});
-    Points tiled = scan.cloud.cloud.points;
-    for (std::size_t i = 0; i < done.moves.size(); ++i) {
-        tiled.col(static_cast<Eigen::Index>(i)) += done.moves[i].cast<double>();
-    }
+    const Points tiled = test::moved(scan.cloud.cloud.points, done.moves);
     EXPECT_LT(scan.error(tiled), 1.1 * scan.error(whole));
 }
 

@@ -1,6 +1,5 @@
 #include "tests/bench/accuracy/noises.h"
 
-#include <Eigen/Geometry>
 #include <cmath>
 
 #include "tests/bench/accuracy/denoised.h"
@@ -20,8 +19,7 @@ struct Noisy {
 
 /// Faces that lie along the axes would only be moved.
 Points rounded_when_turned(const Points& exact, double step) {
-    const Eigen::Matrix3d turn =
-        Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+    const Eigen::Matrix3d turn = some_turn();
     return turn.transpose() * test::rounded(turn * exact, step);
 }
 

@@ -27,6 +27,9 @@ struct Presentation {
     }
 };
 
+/// A rotation that leads no axis to another.
+[[nodiscard]] Eigen::Matrix3d some_turn();
+
 /// As it is; with other random numbers; far away, turned, in another unit.
 [[nodiscard]] std::vector<Presentation> presentations();
 
