@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "core/base/random.h"
+#include "core/denoising/tiled_denoise.h"
 #include "core/field_set.h"
-#include "core/tiled_denoise.h"
 
 namespace lpf {
 namespace {
@@ -165,7 +165,7 @@ double method_bytes(const Workload& w, const ResolvedParameters& p) {
     return bytes;
 }
 
-/// A cloud that is worked on tile by tile (core/tiled_denoise.h).
+/// A cloud that is worked on tile by tile (core/denoising/tiled_denoise.h).
 double streamed_bytes(const Workload& w, const ResolvedParameters& p, int threads) {
     const double tile = kTilePoint * kPointsAround * static_cast<double>(TilingParams{}.points);
     const double at_once = std::min<double>(threads, kTilesAtOnce);

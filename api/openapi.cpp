@@ -4,9 +4,9 @@
 
 #include "api/choices.h"
 #include "api/job.h"
-#include "api/openapi_parts.h"
-#include "api/openapi_paths.h"
-#include "api/openapi_schemas.h"
+#include "api/openapi/parts.h"
+#include "api/openapi/paths.h"
+#include "api/openapi/schemas.h"
 #include "api/parameters.h"
 
 namespace lpf {

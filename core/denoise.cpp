@@ -4,9 +4,9 @@
 #include <numeric>
 
 #include "core/base/error.h"
-#include "core/deconvolution.h"
-#include "core/outer_iteration.h"
-#include "core/tiled_denoise.h"
+#include "core/denoising/deconvolution.h"
+#include "core/denoising/outer_iteration.h"
+#include "core/denoising/tiled_denoise.h"
 
 namespace lpf {
 namespace {

@@ -29,7 +29,7 @@ struct DenoiseResult {
 /// @throws Error{InvalidParameter} naming the field that is out of range
 void validate(const DenoiseParams& params);
 
-/// A shape of more points is worked on tile by tile (core/tiled_denoise.h).
+/// A shape of more points is worked on tile by tile (core/denoising/tiled_denoise.h).
 inline constexpr std::size_t kMostAtOnce = 4'000'000;
 
 /// Moves every point to the consensus of the LPFs around it. Points that no LPF covers stay.

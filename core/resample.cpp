@@ -7,11 +7,11 @@
 
 #include "core/base/error.h"
 #include "core/base/memory.h"
-#include "core/consolidation.h"
 #include "core/field_set.h"
-#include "core/final_vote.h"
-#include "core/nearest_sources.h"
-#include "core/spacing_search.h"
+#include "core/resampling/consolidation.h"
+#include "core/resampling/final_vote.h"
+#include "core/resampling/nearest_sources.h"
+#include "core/resampling/spacing_search.h"
 
 namespace lpf {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "core/base/error.h"
-#include "server/pace.h"
 #include "server/routes.h"
+#include "server/site/pace.h"
 
 namespace lpf::server {
 namespace {

@@ -6,15 +6,15 @@
 #include <thread>
 
 #include "server/config.h"
-#include "server/file_blob_store.h"
-#include "server/gate.h"
-#include "server/job_events.h"
+#include "server/gate/gate.h"
 #include "server/job_queue.h"
-#include "server/preview_cache.h"
+#include "server/jobs/job_events.h"
+#include "server/requests/preview_cache.h"
 #include "server/runner.h"
 #include "server/services.h"
-#include "server/site.h"
-#include "server/sqlite_job_store.h"
+#include "server/site/site.h"
+#include "server/store/file_blob_store.h"
+#include "server/store/sqlite_job_store.h"
 
 namespace lpf::server {
 

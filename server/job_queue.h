@@ -8,12 +8,12 @@
 #include <thread>
 #include <vector>
 
-#include "server/job_teller.h"
-#include "server/lease_keeper.h"
+#include "server/jobs/job_teller.h"
+#include "server/jobs/lease_keeper.h"
+#include "server/jobs/queue_forecast.h"
+#include "server/jobs/running_jobs.h"
 #include "server/log.h"
-#include "server/queue_forecast.h"
-#include "server/running_jobs.h"
-#include "server/storage.h"
+#include "server/store/storage.h"
 #include "server/telemetry.h"
 
 namespace lpf::server {

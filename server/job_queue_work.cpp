@@ -4,8 +4,8 @@
 #include "api/memory_need.h"
 #include "api/parameters.h"
 #include "core/base/memory.h"
-#include "server/job_endings.h"
 #include "server/job_queue.h"
+#include "server/jobs/job_endings.h"
 
 namespace lpf::server {
 namespace {

@@ -11,7 +11,7 @@
 #include "api/job.h"
 #include "api/results.h"
 #include "api/shape_info.h"
-#include "server/scheduling.h"
+#include "server/jobs/scheduling.h"
 
 namespace lpf::server {
 

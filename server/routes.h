@@ -1,7 +1,7 @@
 #pragma once
 
-#include "server/router.h"
 #include "server/services.h"
+#include "server/site/router.h"
 
 namespace lpf::server {
 

@@ -4,12 +4,12 @@
 
 #include "api/dictionary_document.h"
 #include "api/report.h"
-#include "core/tiled_denoise.h"
-#include "server/computation.h"
-#include "server/phases.h"
-#include "server/preparation.h"
-#include "server/result_writer.h"
-#include "server/streaming.h"
+#include "core/denoising/tiled_denoise.h"
+#include "server/shapes/streaming.h"
+#include "server/work/computation.h"
+#include "server/work/phases.h"
+#include "server/work/preparation.h"
+#include "server/work/result_writer.h"
 
 namespace lpf::server {
 namespace {

@@ -7,9 +7,9 @@
 #include "api/limits.h"
 #include "api/shape_info.h"
 #include "core/auto_parameters.h"
-#include "server/mapped_file.h"
-#include "server/running_job.h"
-#include "server/storage.h"
+#include "server/jobs/running_job.h"
+#include "server/store/mapped_file.h"
+#include "server/store/storage.h"
 
 namespace lpf::server {
 

@@ -4,14 +4,14 @@
 
 #include "server/clock.h"
 #include "server/config.h"
-#include "server/data_dir.h"
-#include "server/decoding_room.h"
-#include "server/idempotency.h"
-#include "server/job_events.h"
 #include "server/job_queue.h"
+#include "server/jobs/job_events.h"
 #include "server/log.h"
-#include "server/preview_cache.h"
-#include "server/storage.h"
+#include "server/requests/idempotency.h"
+#include "server/requests/preview_cache.h"
+#include "server/shapes/decoding_room.h"
+#include "server/store/data_dir.h"
+#include "server/store/storage.h"
 #include "server/telemetry.h"
 
 namespace lpf::server {

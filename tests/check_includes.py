@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Checks that dependencies point one way. Linking cannot: every header lies in an include folder.
 
-    core/base <- core/shape <- core/field <- core/learn <- core <- api/codec <- api <- server
+    core/base <- core/shape <- core/field <- core/learn <- core <- api/codec <- api <- server/http <- server
 
-Each file may include its own layer and those before it, and each library has its owner files.
+Each file may include its own layer and those before it, and each library has its owner files. Any
+other folder belongs to the layer that it lies in; such parts do not include each other in a circle.
 Usage: check_includes.py [ROOT]
 """
 
@@ -14,14 +15,15 @@ from pathlib import Path
 
 from source_tree import CPP_SUFFIXES, line_of, tracked_files, without_comments
 
-LAYERS = ["core/base", "core/shape", "core/field", "core/learn", "core", "api/codec", "api", "server"]
+LAYERS = ["core/base", "core/shape", "core/field", "core/learn", "core", "api/codec", "api",
+          "server/http", "server"]
 
 # Header -> the only files that may include it. Tests and examples may include anything.
 OWNERS = {
     "nanoflann.hpp": ["core/shape/spatial_index.cpp"],
     "draco/*": ["api/codec/draco*"],
     "httplib.h": ["server/http/*"],
-    "sqlite3.h": ["server/sqlite.*"],
+    "sqlite3.h": ["server/store/sqlite.*"],
     "nlohmann/*": ["api/*", "server/*"],
     "Eigen/*": ["core/*", "api/*", "server/*"],
     "thread": ["core/base/parallel.cpp", "server/*"],
@@ -34,9 +36,6 @@ OWNERS = {
     "cstdio": ["server/*", "api/*"],
 }
 
-# The handlers stand in a folder of their own for the reader's sake; they are one unit with server.
-PART_OF = {"server/handlers": "server"}
-
 # What core never does: print, end the process, look around, keep the time of day.
 FORBIDDEN_IN_CORE = re.compile(
     r"\bstd::(?:cout|cerr|clog|jthread|thread|async|system_clock)\b"
@@ -47,22 +46,22 @@ ALLOWED_IN = {"core/base/parallel.cpp": {"std::jthread"}}
 _INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*(?P<open>[<"])(?P<name>[^>"]+)[>"]', re.MULTILINE)
 
 
+def folder_of(path):
+    return path.rpartition("/")[0]
+
+
 def layer_of(path):
     """Index of the layer of a project file, or None for tests and examples."""
-    folder = path.rpartition("/")[0]
-    for i, layer in enumerate(LAYERS):
-        if folder == layer:
-            return i
-    for layer in ("api", "server"):  # their other sub-folders belong to them
-        if folder.startswith(layer + "/"):
-            return LAYERS.index(layer)
-    return None
+    folder = folder_of(path)
+    while folder and folder not in LAYERS:
+        folder = folder_of(folder)
+    return LAYERS.index(folder) if folder else None
 
 
-def unit_of(path):
-    """The folder of a file, as the search for circles sees it."""
-    folder = path.rpartition("/")[0]
-    return PART_OF.get(folder, folder)
+def is_part_and_whole(here, there):
+    """Whether two folders are one unit: one is a part of the layer that the other is."""
+    return (layer_of(here + "/") == layer_of(there + "/") is not None
+            and (folder_of(here) == there or folder_of(there) == here))
 
 
 def check_include(path, name, project_files):
@@ -128,8 +127,8 @@ def check(root):
             if match.group("open") == '"' and name not in files:
                 faults.append(f'{path}:{line}: "{name}" is not a file of the project; '
                               "includes are rooted at the repository")
-            here, there = unit_of(path), unit_of(name)
-            if name in files and here != there:
+            here, there = folder_of(path), folder_of(name)
+            if name in files and here != there and not is_part_and_whole(here, there):
                 folders.setdefault(here, set()).add(there)
         if path.startswith("core/"):
             code = without_comments(text)

@@ -67,10 +67,19 @@ class Includes(unittest.TestCase):
             faults = self.check({"core/a.cpp": f"void f() {{ {code} }}\n"})
             self.assertEqual(len(faults), 1, code)
 
+    def test_transport_must_not_know_the_service(self):
+        faults = self.check({"server/http/a.cpp": '#include "server/jobs/b.h"\n',
+                             "server/jobs/b.h": ""})
+        self.assertIn("lies above server/http", faults[0])
+
     def test_circle_of_folders_is_named(self):
-        faults = self.check({"server/a.h": '#include "server/http/b.h"\n',
-                             "server/http/b.h": '#include "server/c.h"\n', "server/c.h": ""})
-        self.assertIn("server -> server/http -> server", faults[0])
+        faults = self.check({"server/a/x.h": '#include "server/b/y.h"\n',
+                             "server/b/y.h": '#include "server/a/z.h"\n', "server/a/z.h": ""})
+        self.assertIn("server/a -> server/b -> server/a", faults[0])
+
+    def test_a_layer_and_its_parts_are_one(self):
+        self.assertEqual(self.check({"server/a/x.h": '#include "server/log.h"\n', "server/log.h": "",
+                                     "server/app.cpp": '#include "server/a/x.h"\n'}), [])
 
 
 def long_function(lines):

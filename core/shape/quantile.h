@@ -6,7 +6,8 @@
 
 namespace lpf {
 
-/// The value that this share of the values are below, 0 to 1; reorders them. 0 where there are none.
+/// The value that this share of the values are below, 0 to 1; reorders them. 0 where there are
+/// none.
 [[nodiscard]] inline double quantile(std::vector<double>& values, double share) {
     if (values.empty()) return 0.0;
     const auto at =

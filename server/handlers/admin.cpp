@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
-#include "server/answer.h"
 #include "server/handlers/handlers.h"
+#include "server/requests/answer.h"
 
 namespace lpf::server {
 

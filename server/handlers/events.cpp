@@ -3,9 +3,9 @@
 
 #include "api/http_text.h"
 #include "api/job_event.h"
-#include "server/answer.h"
 #include "server/handlers/handlers.h"
-#include "server/handlers/lookup.h"
+#include "server/requests/answer.h"
+#include "server/requests/lookup.h"
 
 namespace lpf::server {
 namespace {

@@ -5,11 +5,11 @@
 #include "api/json_text.h"
 #include "api/parameters.h"
 #include "api/results.h"
-#include "server/answer.h"
 #include "server/handlers/job_request.h"
-#include "server/handlers/lookup.h"
-#include "server/ingest.h"
-#include "server/sha256.h"
+#include "server/requests/answer.h"
+#include "server/requests/ingest.h"
+#include "server/requests/lookup.h"
+#include "server/store/sha256.h"
 
 namespace lpf::server {
 namespace {

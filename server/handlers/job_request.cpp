@@ -2,10 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "server/admission.h"
-#include "server/answer.h"
 #include "server/ids.h"
-#include "server/ingest.h"
+#include "server/requests/admission.h"
+#include "server/requests/answer.h"
+#include "server/requests/ingest.h"
 
 namespace lpf::server {
 namespace {

@@ -1,9 +1,9 @@
 #include <nlohmann/json.hpp>
 
 #include "api/parameters.h"
-#include "server/answer.h"
 #include "server/handlers/handlers.h"
-#include "server/handlers/lookup.h"
+#include "server/requests/answer.h"
+#include "server/requests/lookup.h"
 
 namespace lpf::server {
 namespace {

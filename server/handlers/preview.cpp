@@ -4,11 +4,11 @@
 #include <sstream>
 
 #include "api/memory_need.h"
-#include "server/answer.h"
 #include "server/handlers/handlers.h"
-#include "server/handlers/lookup.h"
-#include "server/mapped_file.h"
-#include "server/streaming.h"
+#include "server/requests/answer.h"
+#include "server/requests/lookup.h"
+#include "server/shapes/streaming.h"
+#include "server/store/mapped_file.h"
 
 namespace lpf::server {
 namespace {

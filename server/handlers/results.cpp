@@ -6,11 +6,11 @@
 #include "api/http_text.h"
 #include "api/memory_need.h"
 #include "core/shape/noise.h"
-#include "server/answer.h"
 #include "server/handlers/handlers.h"
-#include "server/handlers/lookup.h"
-#include "server/mapped_file.h"
-#include "server/result_writer.h"
+#include "server/requests/answer.h"
+#include "server/requests/lookup.h"
+#include "server/store/mapped_file.h"
+#include "server/work/result_writer.h"
 
 namespace lpf::server {
 namespace {

@@ -1,10 +1,10 @@
 // POST /v1/jobs/{id}/retry: a new job with the inputs of one that has ended.
 #include "api/problem.h"
-#include "server/answer.h"
 #include "server/handlers/job_request.h"
-#include "server/handlers/lookup.h"
-#include "server/ingest.h"
-#include "server/sha256.h"
+#include "server/requests/answer.h"
+#include "server/requests/ingest.h"
+#include "server/requests/lookup.h"
+#include "server/store/sha256.h"
 
 namespace lpf::server {
 namespace {

@@ -2,8 +2,8 @@
 
 #include "api/openapi.h"
 #include "api/service_info.h"
-#include "server/answer.h"
 #include "server/handlers/handlers.h"
+#include "server/requests/answer.h"
 
 namespace lpf::server {
 

@@ -2,10 +2,10 @@
 
 #include "api/codec/format.h"
 #include "api/http_text.h"
-#include "server/answer.h"
 #include "server/handlers/handlers.h"
-#include "server/handlers/lookup.h"
-#include "server/ingest.h"
+#include "server/requests/answer.h"
+#include "server/requests/ingest.h"
+#include "server/requests/lookup.h"
 
 namespace lpf::server {
 

@@ -6,13 +6,13 @@
 #include "api/json_text.h"
 #include "api/parameters.h"
 #include "api/validation.h"
-#include "server/answer.h"
 #include "server/handlers/handlers.h"
-#include "server/handlers/lookup.h"
-#include "server/ingest.h"
-#include "server/mapped_file.h"
-#include "server/outlook.h"
-#include "server/result_writer.h"
+#include "server/requests/answer.h"
+#include "server/requests/ingest.h"
+#include "server/requests/lookup.h"
+#include "server/requests/outlook.h"
+#include "server/store/mapped_file.h"
+#include "server/work/result_writer.h"
 
 namespace lpf::server {
 namespace {

@@ -1,6 +1,6 @@
-#include "server/answer.h"
 #include "server/handlers/handlers.h"
-#include "server/web_files.h"
+#include "server/requests/answer.h"
+#include "server/site/web_files.h"
 
 namespace lpf::server {
 namespace {

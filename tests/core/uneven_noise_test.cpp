@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/auto_parameters.h"
-#include "core/tiled_denoise.h"
+#include "core/denoising/tiled_denoise.h"
 #include "tests/core/clouds.h"
 #include "tests/support/metrics.h"
 #include "tests/support/noises.h"

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "server/sha256.h"
+#include "server/store/sha256.h"
 #include "tests/server/example_shapes.h"
 #include "tests/server/temporary_folder.h"
 

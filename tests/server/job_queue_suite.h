@@ -7,11 +7,11 @@
 #include <thread>
 
 #include "core/base/error.h"
-#include "server/file_blob_store.h"
 #include "server/ids.h"
 #include "server/job_queue.h"
-#include "server/sha256.h"
-#include "server/sqlite_job_store.h"
+#include "server/store/file_blob_store.h"
+#include "server/store/sha256.h"
+#include "server/store/sqlite_job_store.h"
 #include "tests/server/temporary_folder.h"
 
 namespace lpf::server {

@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
-#include "server/file_blob_store.h"
 #include "server/ids.h"
-#include "server/mapped_file.h"
 #include "server/runner.h"
-#include "server/sqlite_job_store.h"
+#include "server/store/file_blob_store.h"
+#include "server/store/mapped_file.h"
+#include "server/store/sqlite_job_store.h"
 #include "tests/server/temporary_folder.h"
 
 namespace lpf::server {

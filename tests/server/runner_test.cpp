@@ -6,11 +6,11 @@
 
 #include "api/problem.h"
 #include "core/base/error.h"
-#include "server/file_blob_store.h"
 #include "server/ids.h"
-#include "server/mapped_file.h"
-#include "server/sha256.h"
-#include "server/sqlite_job_store.h"
+#include "server/store/file_blob_store.h"
+#include "server/store/mapped_file.h"
+#include "server/store/sha256.h"
+#include "server/store/sqlite_job_store.h"
 #include "tests/server/example_shapes.h"
 #include "tests/server/runner_fixture.h"
 

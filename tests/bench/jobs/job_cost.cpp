@@ -17,12 +17,12 @@
 #include "api/codec/summary.h"
 #include "api/report.h"
 #include "core/auto_parameters.h"
+#include "core/denoising/tiled_denoise.h"
 #include "core/shape/outliers.h"
-#include "core/tiled_denoise.h"
-#include "server/computation.h"
-#include "server/file_blob_store.h"
-#include "server/mapped_file.h"
-#include "server/streaming.h"
+#include "server/shapes/streaming.h"
+#include "server/store/file_blob_store.h"
+#include "server/store/mapped_file.h"
+#include "server/work/computation.h"
 #include "tests/bench/jobs/cost_meter.h"
 
 namespace lpf::bench {

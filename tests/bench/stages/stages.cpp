@@ -12,12 +12,12 @@
 
 #include "core/auto_parameters.h"
 #include "core/base/kernels.h"
-#include "core/consensus.h"
+#include "core/denoising/votes.h"
 #include "core/field/piece_growth.h"
 #include "core/field_set.h"
 #include "core/learn/dictionary_learning.h"
 #include "core/learn/pose.h"
-#include "core/votes.h"
+#include "core/resampling/consensus.h"
 #include "tests/bench/stages/peak.h"
 #include "tests/support/shapes.h"
 
