@@ -1,217 +1,211 @@
 #include "core/analysis.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include "core/base/error.h"
-#include "core/base/kernels.h"
 #include "core/field_set.h"
+#include "core/gathered_fields.h"
+#include "core/joint_steps.h"
 #include "core/learn/dictionary_learning.h"
-#include "core/learn/pose.h"
 #include "core/shape/extent.h"
 
 namespace lpf {
 namespace {
 
-/// Eq. 2 of one LPF, less nothing: |V - D a|^2 + lambda |a|_1.
-struct FieldEnergy {
-    double before = 0.0;  // with the code and dictionary of the last iteration, probed anew
-    double learning = 0.0;
-    double pose = 0.0;
-};
-
 void require(bool right, const std::string& message, const std::string& field) {
     if (!right) throw Error(ErrorCode::InvalidParameter, message, field);
 }
 
-double l1_norm(std::span<const float> code) {
-    double sum = 0.0;
-    for (const float value : code) sum += std::abs(static_cast<double>(value));
-    return sum;
+/// Bytes of dictionaries that are at hand together.
+constexpr std::size_t kPathBytes = 2U << 20U;
+
+/// So many LPFs go through these together: each dictionary is fetched once for all of them.
+constexpr std::size_t kFieldsAlongPath = 128;
+
+/// LPFs whose fields are at hand need no company.
+constexpr std::size_t kFieldsPerChunk = 32;
+
+/// Runs body(i, n numbers from the i-th on) for as many as make a block.
+template <class Body>
+void for_each_block(std::span<const std::size_t> numbers, const Body& body) {
+    for (std::size_t i = 0; i < numbers.size(); i += kFieldsOfBlock) {
+        body(i, numbers.subspan(i, std::min(kFieldsOfBlock, numbers.size() - i)));
+    }
 }
 
-/// The state of the joint loop; one method for each line of the paper's Sec. 3.2.
+/// The joint loop; one method for each line of the paper's Sec. 3.2. The dictionary depends on
+/// nothing but the LPFs that it is learned on. These lead, some iterations at a time, and the
+/// others follow: each goes through all of these iterations while its points are at hand.
 class JointLoop {
 public:
     JointLoop(FieldSet& fields, const AnalysisParams& params)
         : fields_(fields),
           params_(params),
-          coder_{static_cast<float>(params.lambda), params.lasso},
+          stays_(fields.poses_are_fixed()),
           dictionary_(params.initial_dictionary ? *params.initial_dictionary
                                                 : Dictionary(fields.pattern(), params.atoms)),
-          previous_(dictionary_),
-          codes_(fields.size(), dictionary_.atoms()),
-          sample_(fields.draw_sample(params.learning_sample, params.random_seed)) {}
+          steps_(fields, params, dictionary_.atoms()),
+          energy_(static_cast<std::size_t>(params.iterations) + 1),
+          leaders_(fields.draw_sample(params.learning_sample, params.random_seed)),
+          sample_{{}, dictionary_.stride(), {}} {
+        std::ranges::set_difference(fields.usable(), leaders_, std::back_inserter(followers_));
+        for (const std::size_t j : leaders_) sample_.lambda_share.push_back(fields.lambda_share(j));
+        path_.emplace_back(dictionary_, -1);
+    }
 
-    /// Step 1: learn the dictionary on a sample of the LPFs (Sec. 3.3).
-    void learn(const Execution& execution) {
-        previous_ = dictionary_;
-        if (params_.keep_dictionary) return;
-        FieldSample sample{
-            fields_.probe_sample(sample_, part_of(execution, 0.0, 0.3)), dictionary_.stride(), {}};
-        for (const std::size_t j : sample_) sample.lambda_share.push_back(fields_.lambda_share(j));
-        if (energy_.empty() && !params_.initial_dictionary) {
-            dictionary_ =
-                draw_dictionary(fields_.pattern(), params_.atoms, sample, params_.random_seed);
+    void run(const Execution& execution) {
+        const int together = iterations_together();
+        for (int first = 0; first < params_.iterations; first += together) {
+            const int end = std::min(first + together, params_.iterations);
+            const double all = params_.iterations;
+            const Execution part = part_of(execution, first / all, end / all);
+            lead(first, end, part_of(part, 0.0, share_of_leaders()));
+            follow(part_of(part, share_of_leaders(), 1.0));
+            path_.erase(path_.begin(), path_.end() - 1);
         }
-        SparseCodes codes(sample.count(), dictionary_.atoms());
-        for (std::size_t i = 0; i < sample.count(); ++i) {
-            std::ranges::copy(codes_[sample_[i]], codes[i].begin());
-        }
-        learn_dictionary(sample, coder_, params_.learning_rounds, params_.random_seed, dictionary_,
-                         codes, part_of(execution, 0.3, 1.0));
-    }
-
-    /// Steps 1 to 3 for every LPF in one pass: probe it where it now is (closing the loop of the
-    /// iteration before), code it, and move it to where it fits its code best.
-    void code_and_pose(const Execution& execution) {
-        pass("analyze", execution, {.opens = true, .closes = false});
-    }
-
-    /// Step 3 of the last iteration, and the codes that belong to the last poses.
-    void close(const Execution& execution) {
-        previous_ = dictionary_;
-        pass("encode", execution, {.opens = false, .closes = true});
-    }
-
-    /// Both for LPFs that stay where they are: the last iteration in one pass.
-    void code_and_close(const Execution& execution) {
-        pass("analyze", execution, {.opens = true, .closes = true});
-        energy_.back().probing = energy_.back().pose;
     }
 
     AnalysisResult result() && {
-        AnalysisResult result{std::move(dictionary_), fields_.frames, std::move(codes_), {}, {}, {},
-                              std::move(energy_),     params_.radius, params_.lambda};
-        result.residuals = std::move(residuals_);
-        result.dimensions = fields_.dimensions;
+        AnalysisResult result{std::move(dictionary_),  fields_.frames,
+                              std::move(steps_.codes), std::move(steps_.residuals),
+                              fields_.dimensions,      {},
+                              mean_energies(),         params_.radius,
+                              params_.lambda};
         result.usage = usage_of_atoms(result.codes);
         return result;
     }
 
 private:
-    struct Part {
-        bool opens;   ///< an iteration
-        bool closes;  ///< the loop: LPFs stay, and their codes are the last ones
-    };
+    [[nodiscard]] int iterations_together() const {
+        const std::size_t atoms = steps_.codes.atoms();
+        const std::size_t bytes = 2 * sizeof(float) * dictionary_.stride() * atoms;
+        return std::max(1, static_cast<int>(kPathBytes / bytes));
+    }
 
-    void pass(std::string_view phase, const Execution& execution, Part part) {
-        const CodingMatrices matrices(dictionary_);
-        std::vector<FieldEnergy> chunk_energy(fields_.chunks());
-        residuals_.assign(fields_.size(), 0.0F);
-        fields_.for_each_block(
-            phase, execution, dictionary_.atoms(), [&](FieldSet::Block& block, std::size_t chunk) {
-                FieldEnergy& energy = chunk_energy[chunk];
-                decode(previous_, block);
-                for (std::size_t i = 0; i < block.count; ++i) {
-                    energy.before += field_energy(block, i);
-                }
-                encode(matrices, block);
-                decode(dictionary_, block);
-                for (std::size_t i = 0; i < block.count; ++i) {
-                    const double learned = field_energy(block, i);
-                    energy.learning += learned;
-                    const bool stays = part.closes || fields_.pose_is_fixed(block.number[i]);
-                    if (!stays) pose(block, i);
-                    energy.pose += stays ? learned : field_energy(block, i);
-                }
-                if (part.closes) finish(matrices, block);
+    /// Of the work: learning takes about as long again.
+    [[nodiscard]] double share_of_leaders() const {
+        const double leaders = 2 * static_cast<double>(leaders_.size());
+        return leaders / std::max(1.0, leaders + static_cast<double>(followers_.size()));
+    }
+
+    /// Takes the leaders through some iterations, and leaves the path that they went.
+    void lead(int first, int end, const Execution& execution) {
+        const bool is_last = end == params_.iterations;
+        const int steps = end - first + static_cast<int>(is_last && !stays_);
+        for (int i = 0; i < steps; ++i) {
+            const Execution part =
+                step_of(execution, static_cast<std::size_t>(i), static_cast<std::size_t>(steps));
+            sample_.fields = fields_.probe_sample(leaders_, part_of(part, 0.0, 0.3));
+            // After all iterations come the codes that belong to the last poses.
+            if (first + i < params_.iterations) learn(first + i, part_of(part, 0.3, 0.9));
+            step_on(first + i, is_last && i + 1 == steps, part_of(part, 0.9, 1.0));
+        }
+    }
+
+    /// Step 1: learn the dictionary on the leaders (Sec. 3.3).
+    void learn(int iteration, const Execution& execution) {
+        if (params_.keep_dictionary) return;
+        if (iteration == 0 && !params_.initial_dictionary) {
+            dictionary_ =
+                draw_dictionary(fields_.pattern(), params_.atoms, sample_, params_.random_seed);
+        }
+        SparseCodes codes(leaders_.size(), dictionary_.atoms());
+        for (std::size_t i = 0; i < leaders_.size(); ++i) {
+            std::ranges::copy(steps_.codes[leaders_[i]], codes[i].begin());
+        }
+        learn_dictionary(sample_, steps_.coder(), params_.learning_rounds, params_.random_seed,
+                         dictionary_, codes, execution);
+    }
+
+    /// Takes the leaders, as they were probed to learn from, one iteration on.
+    void step_on(int number, bool closes, const Execution& execution) {
+        path_.emplace_back(dictionary_, number);
+        path_.back().closes = closes;
+        const std::size_t stride = sample_.stride;
+        Sums sums(chunk_count(leaders_.size(), kFieldsPerChunk) * 2);
+        parallel_for(
+            execution, "analyze", "fields", leaders_.size(), kFieldsPerChunk,
+            [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                BlockRoom room(stride, dictionary_.atoms());
+                const auto numbers = std::span(leaders_).subspan(begin, end - begin);
+                for_each_block(numbers, [&](std::size_t i, auto some) {
+                    const auto fields = std::span(sample_.fields)
+                                            .subspan((begin + i) * stride, some.size() * stride);
+                    go_through(path_.size() - 1, room.block(some, fields), &sums[2 * chunk]);
+                });
             });
-        record(chunk_energy, part.opens);
+        add_up(sums, path_.size() - 1);
     }
 
-    /// The codes as they are to be, and what they leave of the fields.
-    void finish(const CodingMatrices& matrices, FieldSet::Block& block) {
-        if (params_.debias) {
-            for (std::size_t i = 0; i < block.count; ++i) {
-                debias({matrices.gram, correlations(block, i), 0.0F}, codes_[block.number[i]]);
-            }
-            decode(dictionary_, block);
+    /// Takes the followers through the whole path.
+    void follow(const Execution& execution) {
+        Sums sums(chunk_count(followers_.size(), kFieldsAlongPath) * path_.size());
+        parallel_for(execution, "analyze", "fields", followers_.size(), kFieldsAlongPath,
+                     [&](std::size_t begin, std::size_t end, std::size_t chunk) {
+                         BlockRoom room(sample_.stride, dictionary_.atoms());
+                         const auto numbers = std::span(followers_).subspan(begin, end - begin);
+                         GatheredFields gathered(fields_, numbers);
+                         for (std::size_t step = 1; step < path_.size(); ++step) {
+                             for_each_block(numbers, [&](std::size_t i, auto some) {
+                                 const FieldBlock block = room.block(some);
+                                 for (std::size_t k = 0; k < some.size(); ++k) {
+                                     gathered.probe(i + k, block.field(k).data());
+                                 }
+                                 go_through(step, block, &sums[chunk * path_.size() + step - 1]);
+                             });
+                         }
+                     });
+        add_up(sums, 1);
+    }
+
+    /// One iteration of the path. @param sums of the iteration before, and of this one
+    void go_through(std::size_t step, const FieldBlock& block, IterationEnergy* sums) {
+        steps_.close(path_[step - 1], block, sums[0]);
+        steps_.iterate(path_[step], block, sums[1]);
+    }
+
+    /// Energies of each chunk: of the iteration before a part of the path, and of its iterations.
+    using Sums = std::vector<IterationEnergy>;
+
+    /// Adds them up in the order of the chunks, so that no digit depends on the threads.
+    /// @param step where the part begins; it goes to the end of the path
+    void add_up(const Sums& sums, std::size_t step) {
+        const int before = path_[step].number - 1;
+        const std::size_t of_chunk = path_.size() - step + 1;
+        for (std::size_t k = 0; k < sums.size(); ++k) {
+            const int number = before + static_cast<int>(k % of_chunk);
+            if (number < 0) continue;
+            IterationEnergy& sum = energy_[static_cast<std::size_t>(number)];
+            sum.learning += sums[k].learning;
+            sum.pose += sums[k].pose;
+            sum.probing += sums[k].probing;
         }
-        for (std::size_t i = 0; i < block.count; ++i) {
-            residuals_[block.number[i]] = residual(block, i);
-        }
     }
 
-    /// D alpha of each.
-    void decode(const Dictionary& dictionary, FieldSet::Block& block) {
-        const std::size_t d = codes_atoms();
-        for (std::size_t i = 0; i < block.count; ++i) {
-            std::ranges::copy(codes_[block.number[i]],
-                              block.codes.begin() + static_cast<std::ptrdiff_t>(i * d));
-        }
-        dictionary.decode_all(std::span(block.codes).first(block.count * d), block.decoded);
-    }
-
-    void encode(const CodingMatrices& matrices, FieldSet::Block& block) {
-        Coder::correlate(matrices, std::span(block.fields).first(block.count * matrices.stride),
-                         block.correlations);
-        std::array<LassoTask, kFieldsOfBlock> tasks;
-        for (std::size_t i = 0; i < block.count; ++i) {
-            const std::size_t j = block.number[i];
-            tasks[i] = {correlations(block, i), coder_.lambda * fields_.lambda_share(j), codes_[j]};
-        }
-        coder_.solve(matrices.gram, std::span(tasks).first(block.count));
-    }
-
-    [[nodiscard]] std::span<const float> correlations(const FieldSet::Block& block,
-                                                      std::size_t i) const {
-        const std::size_t width = whole_lines(codes_atoms());
-        return std::span(block.correlations).subspan(i * width, codes_atoms());
-    }
-
-    /// Moves LPF and field to where they fit the code best.
-    void pose(FieldSet::Block& block, std::size_t i) {
-        float* field = block.field(i).data();
-        const RigidFit fit = fit_pose(dictionary_.pattern(), field, block.decoded_field(i).data());
-        apply_pose(fit, fields_.frames[block.number[i]]);
-        move_field(dictionary_.pattern(), fit, field);
-    }
-
-    [[nodiscard]] std::size_t codes_atoms() const {
-        return static_cast<std::size_t>(codes_.atoms());
-    }
-
-    [[nodiscard]] static float squared_distance(FieldSet::Block& block, std::size_t i) {
-        return kernels::squared_distance(block.field(i).data(), block.decoded_field(i).data(),
-                                         block.field(i).size());
-    }
-
-    [[nodiscard]] double field_energy(FieldSet::Block& block, std::size_t i) const {
-        const std::size_t j = block.number[i];
-        return static_cast<double>(squared_distance(block, i)) +
-               params_.lambda * static_cast<double>(fields_.lambda_share(j)) * l1_norm(codes_[j]);
-    }
-
-    [[nodiscard]] float residual(FieldSet::Block& block, std::size_t i) const {
-        return std::sqrt(squared_distance(block, i) /
-                         static_cast<float>(dictionary_.pattern().size()));
-    }
-
-    /// Sums in the order of the chunks, so that no digit depends on the threads.
-    void record(const std::vector<FieldEnergy>& chunk_energy, bool opens_iteration) {
-        FieldEnergy sum;
-        for (const FieldEnergy& part : chunk_energy) {
-            sum.before += part.before;
-            sum.learning += part.learning;
-            sum.pose += part.pose;
-        }
+    [[nodiscard]] std::vector<IterationEnergy> mean_energies() const {
         const auto n = static_cast<double>(std::max<std::size_t>(1, fields_.size()));
-        if (!energy_.empty()) energy_.back().probing = sum.before / n;
-        if (opens_iteration) energy_.push_back({sum.learning / n, sum.pose / n, 0.0});
+        std::vector<IterationEnergy> means;
+        for (int i = 0; i < params_.iterations; ++i) {
+            const IterationEnergy& sum = energy_[static_cast<std::size_t>(i)];
+            means.push_back({sum.learning / n, sum.pose / n, sum.probing / n});
+        }
+        if (stays_) means.back().probing = means.back().pose;
+        return means;
     }
 
     FieldSet& fields_;
     const AnalysisParams& params_;
-    Coder coder_;
+    bool stays_;  // where all LPFs do, the last iteration gives the last codes
     Dictionary dictionary_;
-    Dictionary previous_;  // that the codes were made with, until they are made anew
-    SparseCodes codes_;
-    std::vector<std::size_t> sample_;  // the LPFs that the dictionary is learned on
-    std::vector<float> residuals_;
-    std::vector<IterationEnergy> energy_;
+    JointSteps steps_;
+    Sums energy_;                         // of all LPFs; one more for the codes of the last poses
+    std::vector<std::size_t> leaders_;    // the LPFs that the dictionary is learned on
+    std::vector<std::size_t> followers_;  // all others
+    FieldSample sample_;                  // the fields of the leaders
+    std::vector<Iteration> path_;         // some iterations, and the one before them
 };
 
 }  // namespace
@@ -255,18 +249,7 @@ void validate(const AnalysisParams& p) {
 
 AnalysisResult analyze(FieldSet& fields, const AnalysisParams& params, const Execution& execution) {
     JointLoop loop(fields, params);
-    const double passes = params.iterations + 1;
-    const bool stay = fields.poses_are_fixed();
-    for (int i = 0; i < params.iterations; ++i) {
-        loop.learn(part_of(execution, i / passes, (i + 0.3) / passes));
-        const bool last = i + 1 == params.iterations;
-        if (last && stay) {
-            loop.code_and_close(part_of(execution, (i + 0.3) / passes, 1.0));
-            return std::move(loop).result();
-        }
-        loop.code_and_pose(part_of(execution, (i + 0.3) / passes, (i + 1) / passes));
-    }
-    loop.close(part_of(execution, params.iterations / passes, 1.0));
+    loop.run(execution);
     return std::move(loop).result();
 }
 

@@ -144,50 +144,42 @@ bool FieldSet::poses_are_fixed() const {
 std::size_t FieldSet::chunks() const { return chunk_count(size(), kFieldsPerChunk); }
 
 void FieldSet::gather(std::size_t j, TargetArea& target) const {
-    gather_ball(j, target);
+    gather_around(j, target);
+    to_members(j, target);
+}
+
+void FieldSet::gather_around(std::size_t j, TargetArea& target) const {
+    grid_.gather(frames[j].centre, frames[j].radius, target_radius_, target);
+}
+
+void FieldSet::to_flat(std::size_t j, TargetArea& target) const {
+    target.to_frame(frames[j]);
+    flatten(pieces[j], target);
+}
+
+void FieldSet::to_members(std::size_t j, TargetArea& target) const {
+    to_flat(j, target);
     keep_members(pieces[j], 1.0F, target);
 }
 
 void FieldSet::gather_ball(std::size_t j, const PointGrid& grid, TargetArea& target) const {
     grid.gather(frames[j].centre, frames[j].radius, target_radius_, target);
-    target.to_frame(frames[j]);
-    flatten(pieces[j], target);
+    to_flat(j, target);
 }
 
 void FieldSet::probe(std::size_t j, ProbeScratch& scratch, float* field) const {
-    gather(j, scratch.target);
+    gather_around(j, scratch.target);
+    probe_gathered(j, scratch, field);
+}
+
+void FieldSet::probe_gathered(std::size_t j, ProbeScratch& scratch, float* field) const {
+    to_members(j, scratch.target);
     operator_->probe(frames[j], dimensions[j] == kCurve, scratch, field);
     if (pieces[j].is_curve()) {
         // The field starts from the curve, not from the plane: no atom is needed to get there.
         const auto padded = static_cast<std::size_t>(pattern_.padded_size());
         kernels::add_scaled(1.0F, pattern_.channel(1), field + padded, padded);
     }
-}
-
-void FieldSet::for_each_block(std::string_view phase, const Execution& execution, int atoms,
-                              const BlockBody& body) const {
-    parallel_for(execution, phase, "fields", size(), kFieldsPerChunk,
-                 [&](std::size_t begin, std::size_t end, std::size_t chunk) {
-                     const std::size_t stride =
-                         3 * static_cast<std::size_t>(pattern_.padded_size());
-                     ProbeScratch scratch;
-                     Block block;
-                     block.fields.resize(kFieldsOfBlock * stride);
-                     block.decoded.resize(kFieldsOfBlock * stride);
-                     const auto d = static_cast<std::size_t>(atoms);
-                     block.correlations.resize(kFieldsOfBlock * whole_lines(d));
-                     block.codes.resize(kFieldsOfBlock * d);
-                     for (std::size_t j = begin; j < end; ++j) {
-                         if (dimensions[j] != kTooFewPoints) {
-                             probe(j, scratch, block.field(block.count).data());
-                             block.number[block.count++] = j;
-                         }
-                         const bool is_full = block.count == kFieldsOfBlock || j + 1 == end;
-                         if (!is_full || block.count == 0) continue;
-                         body(block, chunk);
-                         block.count = 0;
-                     }
-                 });
 }
 
 void FieldSet::for_each_probed(std::string_view phase, const Execution& execution,
@@ -228,19 +220,24 @@ void FieldSet::for_each_gathered(std::string_view phase, const Execution& execut
                  });
 }
 
-std::vector<std::size_t> FieldSet::draw_sample(int count, std::uint64_t random_seed) const {
+std::vector<std::size_t> FieldSet::usable() const {
     std::vector<std::size_t> usable;
     for (std::size_t j = 0; j < size(); ++j) {
         if (dimensions[j] != kTooFewPoints) usable.push_back(j);
     }
-    const auto wanted = std::min(static_cast<std::size_t>(count), usable.size());
-    Random random(random_seed, 0x5a3);
-    for (std::size_t i = 0; i < wanted && wanted < usable.size(); ++i) {
-        std::swap(usable[i], usable[i + random.below(usable.size() - i)]);
-    }
-    usable.resize(wanted);
-    std::sort(usable.begin(), usable.end());
     return usable;
+}
+
+std::vector<std::size_t> FieldSet::draw_sample(int count, std::uint64_t random_seed) const {
+    std::vector<std::size_t> sample = usable();
+    const auto wanted = std::min(static_cast<std::size_t>(count), sample.size());
+    Random random(random_seed, 0x5a3);
+    for (std::size_t i = 0; i < wanted && wanted < sample.size(); ++i) {
+        std::swap(sample[i], sample[i + random.below(sample.size() - i)]);
+    }
+    sample.resize(wanted);
+    std::sort(sample.begin(), sample.end());
+    return sample;
 }
 
 AlignedFloats FieldSet::probe_sample(const std::vector<std::size_t>& sample,
@@ -261,21 +258,23 @@ AlignedFloats FieldSet::probe_sample(const std::vector<std::size_t>& sample,
 }
 
 void FieldSet::optimise_poses(int passes, const Execution& execution) {
-    for (int pass = 0; pass < passes; ++pass) {
-        const Execution part =
-            step_of(execution, static_cast<std::size_t>(pass), static_cast<std::size_t>(passes));
-        parallel_for(part, "pose", "fields", size(), kFieldsPerChunk,
-                     [&](std::size_t begin, std::size_t end, std::size_t) {
-                         Worker worker = make_worker();
-                         for (std::size_t j = begin; j < end; ++j) {
-                             if (dimensions[j] == kTooFewPoints || pose_is_fixed(j)) continue;
-                             probe(j, worker.probe, worker.field.data());
+    parallel_for(execution, "pose", "fields", size(), kFieldsPerChunk,
+                 [&](std::size_t begin, std::size_t end, std::size_t) {
+                     Worker worker = make_worker();
+                     TargetArea around;
+                     for (std::size_t j = begin; j < end; ++j) {
+                         if (dimensions[j] == kTooFewPoints || pose_is_fixed(j)) continue;
+                         gather_around(j, around);
+                         for (int pass = 0; pass < passes; ++pass) {
+                             worker.probe.target.size = 0;
+                             worker.probe.target.append(around, 0, around.size);
+                             probe_gathered(j, worker.probe, worker.field.data());
                              apply_pose(
                                  fit_pose(pattern_, worker.field.data(), worker.decoded.data()),
                                  frames[j]);
                          }
-                     });
-    }
+                     }
+                 });
 }
 
 }  // namespace lpf

@@ -1,10 +1,8 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -48,33 +46,14 @@ public:
     void gather(std::size_t j, TargetArea& target) const;
     void probe(std::size_t j, ProbeScratch& scratch, float* field) const;
 
+    /// The two steps of a probe, where an LPF is probed again and again.
+    /// @param scratch scratch.target: what gather_around found
+    void gather_around(std::size_t j, TargetArea& target) const;
+    void probe_gathered(std::size_t j, ProbeScratch& scratch, float* field) const;
+
     /// All points of the shape in the target area of one, flattened; and those of another cloud.
     void gather_ball(std::size_t j, TargetArea& target) const { gather_ball(j, grid_, target); }
     void gather_ball(std::size_t j, const PointGrid& grid, TargetArea& target) const;
-
-    /// LPFs that are worked on together, `count` of them, freshly probed.
-    struct Block {
-        std::array<std::size_t, kFieldsOfBlock> number;  ///< of each in the set
-        std::size_t count = 0;
-        AlignedFloats fields;        ///< V_j, one behind the other
-        AlignedFloats decoded;       ///< D alpha_j, alike
-        AlignedFloats correlations;  ///< whole_lines(d) for each
-        AlignedFloats codes;         ///< d for each
-
-        [[nodiscard]] std::span<float> field(std::size_t i) { return part(fields, i); }
-        [[nodiscard]] std::span<float> decoded_field(std::size_t i) { return part(decoded, i); }
-
-    private:
-        [[nodiscard]] static std::span<float> part(AlignedFloats& all, std::size_t i) {
-            const std::size_t size = all.size() / kFieldsOfBlock;
-            return std::span(all).subspan(i * size, size);
-        }
-    };
-
-    /// The same, block by block.
-    using BlockBody = std::function<void(Block& block, std::size_t chunk)>;
-    void for_each_block(std::string_view phase, const Execution& execution, int atoms,
-                        const BlockBody& body) const;
 
     /// The same for all LPFs and without probing: only the target area is gathered.
     void for_each_target(std::string_view phase, const Execution& execution,
@@ -84,7 +63,10 @@ public:
     /// piece.
     void for_each_ball(std::string_view phase, const Execution& execution, const Body& body) const;
 
-    /// At most `count` usable LPFs, drawn at random, ascending; all of them if there are no more.
+    /// The LPFs with a usable target area, ascending.
+    [[nodiscard]] std::vector<std::size_t> usable() const;
+
+    /// At most `count` of these, drawn at random, ascending; all of them if there are no more.
     [[nodiscard]] std::vector<std::size_t> draw_sample(int count, std::uint64_t random_seed) const;
 
     /// The fields of some LPFs as they are now, side by side.
@@ -119,6 +101,8 @@ public:
 private:
     void place(const Points& targets, const AnalysisParams& params, const Region& region,
                const Execution& execution);
+    void to_flat(std::size_t j, TargetArea& target) const;
+    void to_members(std::size_t j, TargetArea& target) const;
     using Gather = void (FieldSet::*)(std::size_t j, TargetArea& target) const;
     void for_each_gathered(std::string_view phase, const Execution& execution, const Body& body,
                            Gather gather_points) const;

@@ -23,35 +23,48 @@ float squared_distance(const float* a, const float* b, std::size_t n) {
     return sum;
 }
 
-void multiply(const float* left, std::size_t count, std::size_t inner, const float* right,
-              std::size_t n, float* out) {
-    std::fill_n(out, count * n, 0.0F);
-    add_product(left, count, inner, right, n, out);
+void to_panels(const float* values, std::size_t rows, std::size_t n, float* out) {
+    for (std::size_t first = 0; first < n; first += kPanel) {
+        const std::size_t width = std::min(kPanel, n - first);
+        for (std::size_t i = 0; i < rows; ++i) {
+            out = std::copy_n(values + i * n + first, width, out);
+        }
+    }
 }
 
 namespace {
 
-/// out += left right, for four rows (or fewer) of left and two registers (or one) of columns: so
-/// many sums that the adders are busy, and so few that they stay in registers.
-/// @param inner values of a row of left that are used, of `row` that there are
-template <int kWidth>
-LPF_INLINE void add_tile(const float* left, std::size_t rows, std::size_t row, std::size_t inner,
-                         const float* right, std::size_t n, std::size_t registers, float* out) {
+/// Rows of a matrix, `stride` floats from one to the next.
+struct Rows {
+    const float* values;
+    std::size_t stride;
+};
+
+/// Adds to the sums the product of four rows (or fewer) of left with two registers (or one) of
+/// columns: so many sums that the adders are busy, and so few that they stay in registers.
+/// @param inner values of a row of left, and rows of right
+/// kAdds: to what is in out, else to zero.
+template <int kWidth, bool kAdds>
+LPF_INLINE void multiply_tile(Rows left, std::size_t rows, std::size_t inner, Rows right,
+                              std::size_t registers, float* out, std::size_t n) {
     using Floats = typename Registers<kWidth>::Floats;
-    const float* const a0 = left;
-    const float* const a1 = left + (1 % rows) * row;
-    const float* const a2 = left + (2 % rows) * row;
-    const float* const a3 = left + (3 % rows) * row;
+    const float* const a0 = left.values;
+    const float* const a1 = left.values + (1 % rows) * left.stride;
+    const float* const a2 = left.values + (2 % rows) * left.stride;
+    const float* const a3 = left.values + (3 % rows) * left.stride;
     float* to[4];
     for (std::size_t k = 0; k < 4; ++k) to[k] = out + (k % rows) * n;
     const std::size_t next = (registers - 1) * kWidth;
-    Floats s0 = floats_at<kWidth>(to[0]), t0 = floats_at<kWidth>(to[0] + next);
-    Floats s1 = floats_at<kWidth>(to[1]), t1 = floats_at<kWidth>(to[1] + next);
-    Floats s2 = floats_at<kWidth>(to[2]), t2 = floats_at<kWidth>(to[2] + next);
-    Floats s3 = floats_at<kWidth>(to[3]), t3 = floats_at<kWidth>(to[3] + next);
+    Floats s0{}, s1{}, s2{}, s3{}, t0{}, t1{}, t2{}, t3{};
+    if constexpr (kAdds) {
+        s0 = floats_at<kWidth>(to[0]), t0 = floats_at<kWidth>(to[0] + next);
+        s1 = floats_at<kWidth>(to[1]), t1 = floats_at<kWidth>(to[1] + next);
+        s2 = floats_at<kWidth>(to[2]), t2 = floats_at<kWidth>(to[2] + next);
+        s3 = floats_at<kWidth>(to[3]), t3 = floats_at<kWidth>(to[3] + next);
+    }
     for (std::size_t i = 0; i < inner; ++i) {
-        const Floats s = floats_at<kWidth>(right + i * n);
-        const Floats t = floats_at<kWidth>(right + i * n + next);
+        const Floats s = floats_at<kWidth>(right.values + i * right.stride);
+        const Floats t = floats_at<kWidth>(right.values + i * right.stride + next);
         s0 += a0[i] * s, t0 += a0[i] * t;
         s1 += a1[i] * s, t1 += a1[i] * t;
         s2 += a2[i] * s, t2 += a2[i] * t;
@@ -64,23 +77,50 @@ LPF_INLINE void add_tile(const float* left, std::size_t rows, std::size_t row, s
     }
 }
 
+/// The product of some rows with `columns` of right, whole registers of them.
+template <int kWidth, bool kAdds>
+LPF_INLINE void multiply_columns(Rows left, std::size_t count, std::size_t inner, Rows right,
+                                 std::size_t columns, float* out, std::size_t n) {
+    for (std::size_t j = 0; j < columns; j += 2 * kWidth) {
+        const std::size_t registers = j + kWidth < columns ? 2 : 1;
+        for (std::size_t first = 0; first < count; first += 4) {
+            const std::size_t rows = count - first < 4 ? count - first : 4;
+            multiply_tile<kWidth, kAdds>({left.values + first * left.stride, left.stride}, rows,
+                                         inner, {right.values + j, right.stride}, registers,
+                                         out + first * n + j, n);
+        }
+    }
+}
+
+/// So many rows of right, in two registers, stay in the first cache while all of left passes by.
+constexpr std::size_t kInner = 128;
+
+template <int kWidth>
+LPF_INLINE void multiply_in(const float* left, std::size_t count, std::size_t inner,
+                            const float* right, std::size_t n, float* out) {
+    for (std::size_t first = 0; first < n; first += kPanel) {
+        const std::size_t width = n - first < kPanel ? n - first : kPanel;
+        const Rows panel{right + first * inner, width};
+        const std::size_t size = inner < kInner ? inner : kInner;
+        multiply_columns<kWidth, false>({left, inner}, count, size, panel, width, out + first, n);
+        for (std::size_t begin = size; begin < inner; begin += kInner) {
+            const std::size_t some = inner - begin < kInner ? inner - begin : kInner;
+            multiply_columns<kWidth, true>({left + begin, inner}, count, some,
+                                           {panel.values + begin * width, width}, width,
+                                           out + first, n);
+        }
+    }
+}
+
 template <int kWidth>
 LPF_INLINE void add_product_in(const float* left, std::size_t count, std::size_t inner,
                                const float* right, std::size_t n, float* out) {
-    // Columns of so many rows of right stay in the first cache while all of left passes by.
-    constexpr std::size_t kInner = 128;
     const std::size_t whole = n - n % kWidth;
     for (std::size_t begin = 0; begin < inner; begin += kInner) {
         const std::size_t size = inner - begin < kInner ? inner - begin : kInner;
         const float* const from = right + begin * n;
-        for (std::size_t j = 0; j < whole; j += 2 * kWidth) {
-            const std::size_t registers = j + kWidth < whole ? 2 : 1;
-            for (std::size_t first = 0; first < count; first += 4) {
-                const std::size_t rows = count - first < 4 ? count - first : 4;
-                add_tile<kWidth>(left + first * inner + begin, rows, inner, size, from + j, n,
-                                 registers, out + first * n + j);
-            }
-        }
+        multiply_columns<kWidth, true>({left + begin, inner}, count, size, {from, n}, whole, out,
+                                       n);
         for (std::size_t k = 0; k < count; ++k) {
             for (std::size_t j = whole; j < n; ++j) {
                 float sum = out[k * n + j];
@@ -131,6 +171,11 @@ LPF_INLINE void combine_rows_in(const float* rows, std::size_t stride, std::size
 }
 
 }  // namespace
+
+LPF_WITH_REGISTERS(void, multiply,
+                   (const float* left, std::size_t count, std::size_t inner, const float* right,
+                    std::size_t n, float* out),
+                   (left, count, inner, right, n, out))
 
 LPF_WITH_REGISTERS(void, add_product,
                    (const float* left, std::size_t count, std::size_t inner, const float* right,

@@ -12,11 +12,20 @@ float dot(const float* a, const float* b, std::size_t n);
 /// Sum of (a[i] - b[i])^2.
 float squared_distance(const float* a, const float* b, std::size_t n);
 
-/// out = left right, for count x inner and inner x n values, row-major.
+/// Columns of a panel. A matrix in panels is so many columns of all its rows, row by row, then the
+/// next so many: what a product reads one after the other lies side by side. The last panel is as
+/// wide as there are columns left.
+inline constexpr std::size_t kPanel = 32;
+
+/// out = a matrix of rows x n values, row-major, in panels.
+void to_panels(const float* values, std::size_t rows, std::size_t n, float* out);
+
+/// out = left right, for count x inner values, row-major, and inner x n in panels.
+/// @param n a multiple of 16
 void multiply(const float* left, std::size_t count, std::size_t inner, const float* right,
               std::size_t n, float* out);
 
-/// The same, added to out.
+/// out += left right, for count x inner and inner x n values, row-major.
 void add_product(const float* left, std::size_t count, std::size_t inner, const float* right,
                  std::size_t n, float* out);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -117,7 +118,8 @@ Execution part_of(const Execution& execution, double low, double high) {
     Execution part = execution;
     if (execution.progress) {
         part.progress = [sink = execution.progress, low, high](Progress progress) {
-            progress.fraction = low + (high - low) * progress.fraction;
+            // Exact at both ends: what ends here never lies above what begins there.
+            progress.fraction = std::lerp(low, high, progress.fraction);
             sink(progress);
         };
     }

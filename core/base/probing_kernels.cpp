@@ -34,32 +34,49 @@ void convolve(const float* in, float* out, std::size_t n, int stride, const floa
 namespace {
 
 template <int kWidth>
-LPF_INLINE void nearest_to_nodes_in(const float* x, const float* y, const float* z, std::size_t n,
-                                    float first_x, float step, float row_y, float squared[16],
-                                    float* out, std::size_t stride) {
+LPF_INLINE float nearest_to_nodes_in(const float* x, const float* y, const float* z, std::size_t n,
+                                     float first_x, float step, float row_y, int nodes, float* out,
+                                     std::size_t stride) {
     using Floats = typename Registers<kWidth>::Floats;
     using Ints = typename Registers<kWidth>::Ints;
+    constexpr std::size_t kBlock = 64;
+    Floats furthest{};
     for (int first = 0; first < 16; first += kWidth) {
         Floats node;
         for (int k = 0; k < kWidth; ++k) node[k] = first_x + step * static_cast<float>(first + k);
         Floats nearest = std::numeric_limits<float>::infinity() - Floats{};
         // What is kept of a point are its coordinates; a number would have to be looked up.
         Floats its_x = node, its_y = row_y - Floats{}, its_z = Floats{};
-        for (std::size_t i = 0; i < n; ++i) {
-            const Floats dx = x[i] - node;
-            const float dy = y[i] - row_y;
-            const Floats d = dx * dx + dy * dy;
-            const Ints is_nearer = d < nearest;
-            its_x = is_nearer ? x[i] - Floats{} : its_x;
-            its_y = is_nearer ? y[i] - Floats{} : its_y;
-            its_z = is_nearer ? z[i] - Floats{} : its_z;
-            nearest = is_nearer ? d : nearest;
+        for (std::size_t begin = 0; begin < n; begin += kBlock) {
+            const std::size_t size = n - begin < kBlock ? n - begin : kBlock;
+            float
+                across[kBlock];  // what all nodes of the row share, a register of points at a time
+            for (std::size_t i = 0; i < size; i += kWidth) {
+                const Floats dy = floats_at<kWidth>(y + begin + i) - row_y;
+                floats_at<kWidth>(across + i) = dy * dy;
+            }
+            for (std::size_t i = 0; i < size; ++i) {
+                const std::size_t point = begin + i;
+                const Floats dx = x[point] - node;
+                const Floats d = dx * dx + across[i];
+                const Ints is_nearer = d < nearest;
+                its_x = is_nearer ? x[point] - Floats{} : its_x;
+                its_y = is_nearer ? y[point] - Floats{} : its_y;
+                its_z = is_nearer ? z[point] - Floats{} : its_z;
+                nearest = is_nearer ? d : nearest;
+            }
         }
         floats_at<kWidth>(out + first) = its_x - node;
         floats_at<kWidth>(out + stride + first) = its_y - row_y;
         floats_at<kWidth>(out + 2 * stride + first) = its_z;
-        floats_at<kWidth>(squared + first) = nearest;
+        Ints lane;
+        for (int k = 0; k < kWidth; ++k) lane[k] = first + k;
+        const Floats counts = lane < nodes ? nearest : Floats{};
+        furthest = counts > furthest ? counts : furthest;
     }
+    float of_all = 0;
+    for (int k = 0; k < kWidth; ++k) of_all = furthest[k] > of_all ? furthest[k] : of_all;
+    return of_all;
 }
 
 template <int kWidth>
@@ -93,10 +110,10 @@ LPF_INLINE std::size_t nearest_to_place_in(const float* x, const float* y, std::
 
 }  // namespace
 
-LPF_WITH_REGISTERS(void, nearest_to_nodes,
+LPF_WITH_REGISTERS(float, nearest_to_nodes,
                    (const float* x, const float* y, const float* z, std::size_t n, float first_x,
-                    float step, float row_y, float squared[16], float* out, std::size_t stride),
-                   (x, y, z, n, first_x, step, row_y, squared, out, stride))
+                    float step, float row_y, int nodes, float* out, std::size_t stride),
+                   (x, y, z, n, first_x, step, row_y, nodes, out, stride))
 
 LPF_WITH_REGISTERS(std::size_t, nearest_to_place,
                    (const float* x, const float* y, std::size_t n, float at_x, float at_y),

@@ -11,10 +11,12 @@ void convolve(const float* in, float* out, std::size_t n, int stride, const floa
 
 /// Displacements of 16 nodes at (first_x + k step, row_y, 0) to the points nearest in the plane, of
 /// equally near ones the first.
-/// @param squared out: distance in the plane, squared; infinite where there are no points
-/// @param out x, y and z of the displacements, `stride` floats from one channel to the next
-void nearest_to_nodes(const float* x, const float* y, const float* z, std::size_t n, float first_x,
-                      float step, float row_y, float squared[16], float* out, std::size_t stride);
+/// @param y is read by whole registers, up to 15 values behind the last
+/// @param nodes how many of these are nodes  @param out x, y and z of the displacements of all 16,
+/// `stride` floats from one channel to the next
+/// @returns the largest squared distance of a node in the plane; infinite where there are no points
+float nearest_to_nodes(const float* x, const float* y, const float* z, std::size_t n, float first_x,
+                       float step, float row_y, int nodes, float* out, std::size_t stride);
 
 /// Adds (1, x, y, z) of each point to the cell it lies in, of a raster of cells that are `step`
 /// wide, the middle one about 0; points beyond the raster count in its outermost cells.

@@ -137,7 +137,7 @@ public:
         }
         for (std::size_t i = 0; i < n; ++i) place[i] = count[row[i]]++;
         std::partial_sum(first_.begin(), first_.end(), first_.begin());
-        sorted_.resize(3 * n);
+        sorted_.resize(3 * n + 16);  // y is read by whole registers
         for (std::size_t i = 0; i < n; ++i) {
             float* const to = sorted_.data() + first_[static_cast<std::size_t>(row[i])] + place[i];
             to[0] = target.x[i];
@@ -216,19 +216,17 @@ private:
         const auto first = static_cast<std::size_t>(run.first_node);
         // Lanes behind the run are those of runs to come, but for the last.
         const bool fits = first + kLanes <= padded;
-        float squared[kLanes];
         float found[3 * kLanes];
-        kernels::nearest_to_nodes(
+        const float furthest = kernels::nearest_to_nodes(
             rows.channel(0, begin), rows.channel(1, begin), rows.channel(2, begin),
             static_cast<std::size_t>(end - begin), pattern_.channel(0)[first], pattern_.step(),
-            pattern_.channel(1)[first], squared, fits ? v + first : found, fits ? padded : kLanes);
+            pattern_.channel(1)[first], run.nodes, fits ? v + first : found,
+            fits ? padded : kLanes);
         for (std::size_t c = 0; c < 3 && !fits; ++c) {
             std::copy_n(found + c * kLanes, run.nodes, v + c * padded + first);
         }
         const float sure = pattern_.step() * (static_cast<float>(reach) + 0.49F);
-        int unsure = 0;
-        for (int k = 0; k < run.nodes; ++k) unsure += static_cast<int>(squared[k] > sure * sure);
-        return unsure == 0 || end - begin == rows.size();
+        return furthest <= sure * sure || end - begin == rows.size();
     }
 
     void clear_padding(float* v) const {

@@ -35,6 +35,12 @@ AlignedFloats transpose(const float* values, std::size_t rows, std::size_t n, st
     return columns;
 }
 
+AlignedFloats in_panels(const AlignedFloats& values, std::size_t rows, std::size_t n) {
+    AlignedFloats panels(values.size());
+    kernels::to_panels(values.data(), rows, n, panels.data());
+    return panels;
+}
+
 }  // namespace
 
 Dictionary::Dictionary(Pattern pattern, int atoms)
@@ -57,11 +63,6 @@ void Dictionary::decode(std::span<const float> code, std::span<float> out) const
                           used.count, out.data());
 }
 
-void Dictionary::decode_all(std::span<const float> codes, std::span<float> out) const {
-    const auto d = static_cast<std::size_t>(atoms_);
-    kernels::multiply(codes.data(), codes.size() / d, d, data(), stride_, out.data());
-}
-
 std::vector<float> Dictionary::gram() const {
     const auto d = static_cast<std::size_t>(atoms_);
     std::vector<float> gram(d * d);
@@ -74,9 +75,14 @@ std::vector<float> Dictionary::gram() const {
     return gram;
 }
 
-AlignedFloats Dictionary::transposed() const {
+AlignedFloats Dictionary::panels() const {
+    return in_panels(values_, static_cast<std::size_t>(atoms_), stride_);
+}
+
+AlignedFloats Dictionary::transposed_panels() const {
     const auto d = static_cast<std::size_t>(atoms_);
-    return transpose(data(), d, stride_, whole_lines(d));
+    const std::size_t width = whole_lines(d);
+    return in_panels(transpose(data(), d, stride_, width), stride_, width);
 }
 
 DictionaryStatistics::DictionaryStatistics(int atoms, std::size_t stride)

@@ -26,14 +26,14 @@ public:
     /// out = D code. @param out stride() floats @param code atoms() coefficients
     void decode(std::span<const float> code, std::span<float> out) const;
 
-    /// The same for several codes and outs, one behind the other.
-    void decode_all(std::span<const float> codes, std::span<float> out) const;
-
     /// G = D'D: atoms() x atoms(), row-major.
     [[nodiscard]] std::vector<float> gram() const;
 
-    /// D': stride() rows of whole_lines(d) floats, zeros behind the last atom.
-    [[nodiscard]] AlignedFloats transposed() const;
+    /// D in panels (core/base/kernels.h).
+    [[nodiscard]] AlignedFloats panels() const;
+
+    /// D': stride() rows of whole_lines(d) floats, zeros behind the last atom; in panels.
+    [[nodiscard]] AlignedFloats transposed_panels() const;
 
 private:
     Pattern pattern_;

@@ -49,9 +49,11 @@ DictionaryStatistics encode_sample(const FieldSample& sample, const Coder& coder
 
 CodingMatrices::CodingMatrices(const Dictionary& dictionary)
     : gram(dictionary.gram()),
-      transposed(dictionary.transposed()),
+      atoms(dictionary.panels()),
+      transposed(dictionary.transposed_panels()),
       stride(dictionary.stride()),
-      width(whole_lines(static_cast<std::size_t>(dictionary.atoms()))) {}
+      width(whole_lines(static_cast<std::size_t>(dictionary.atoms()))),
+      d(static_cast<std::size_t>(dictionary.atoms())) {}
 
 void Coder::encode(const CodingMatrices& matrices, std::span<const float> field,
                    std::span<float> code, float lambda_share) const {
@@ -65,6 +67,12 @@ void Coder::correlate(const CodingMatrices& matrices, std::span<const float> fie
                       std::span<float> correlations) {
     kernels::multiply(fields.data(), fields.size() / matrices.stride, matrices.stride,
                       matrices.transposed.data(), matrices.width, correlations.data());
+}
+
+void Coder::decode(const CodingMatrices& matrices, std::span<const float> codes,
+                   std::span<float> out) {
+    kernels::multiply(codes.data(), codes.size() / matrices.d, matrices.d, matrices.atoms.data(),
+                      matrices.stride, out.data());
 }
 
 void Coder::solve(std::span<const float> gram, std::span<const LassoTask> tasks) const {

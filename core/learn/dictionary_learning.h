@@ -16,9 +16,11 @@ namespace lpf {
 struct CodingMatrices {
     explicit CodingMatrices(const Dictionary& dictionary);
     std::vector<float> gram;   ///< G = D'D: d x d
-    AlignedFloats transposed;  ///< D': stride x width, zeros behind the last atom
+    AlignedFloats atoms;       ///< D, in panels: d x stride
+    AlignedFloats transposed;  ///< D', in panels: stride x width, zeros behind the last atom
     std::size_t stride;
     std::size_t width;  ///< of the correlations of one field: whole_lines(d)
+    std::size_t d;
 };
 
 /// How fields are turned into codes (paper Eq. 3 with the dictionary fixed).
@@ -36,6 +38,10 @@ struct Coder {
     static void correlate(const CodingMatrices& matrices, std::span<const float> fields,
                           std::span<float> correlations);
     void solve(std::span<const float> gram, std::span<const LassoTask> tasks) const;
+
+    /// D alpha of several codes, one behind the other.
+    static void decode(const CodingMatrices& matrices, std::span<const float> codes,
+                       std::span<float> out);
 };
 
 /// Fields that are coded together: enough that the dictionary is read once for all of them, few

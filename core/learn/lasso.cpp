@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <memory>
 
@@ -148,7 +149,8 @@ public:
         active_.count = 0;
         for (std::size_t k = 0; k < atoms_->d; ++k) {
             active_.atom[active_.count] = static_cast<unsigned>(k);
-            active_.count += static_cast<std::size_t>(code_[k] != 0);
+            // By its bits: a comparison of floats would ask for NaN as well.
+            active_.count += static_cast<std::size_t>(std::bit_cast<unsigned>(code_[k]) << 1 != 0);
         }
     }
 

@@ -75,6 +75,15 @@ void NearPoints::reserve(std::size_t points) {
     index.resize(room);
 }
 
+void NearPoints::append(const NearPoints& others, std::size_t first, std::size_t count) {
+    reserve(size + count);
+    std::copy_n(others.x.data() + first, count, x.data() + size);
+    std::copy_n(others.y.data() + first, count, y.data() + size);
+    std::copy_n(others.z.data() + first, count, z.data() + size);
+    std::copy_n(others.index.data() + first, count, index.data() + size);
+    size += count;
+}
+
 PointGrid::PointGrid(const Points& points, double cell, const Execution& execution) {
     if (points.cols() == 0) {
         slabs_ = {{0, 0}};

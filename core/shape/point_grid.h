@@ -17,6 +17,9 @@ struct NearPoints {
     std::size_t size = 0;
 
     void reserve(std::size_t points);
+
+    /// Adds `count` points of others, from number `first` on.
+    void append(const NearPoints& others, std::size_t first, std::size_t count);
 };
 
 /// The side of the largest cells in which a point has no more than `most` others with it on average

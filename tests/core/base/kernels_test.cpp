@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <vector>
 
 #include "core/base/random.h"
@@ -59,29 +60,66 @@ TEST_P(KernelsOf, CombineRowsAddsUpSomeRows) {
     }
 }
 
-TEST_P(KernelsOf, MultiplyIsTheProductOfTwoMatrices) {
+/// Entry (i, j) of a product of count x inner with inner x n values.
+double entry_of_product(const Floats& left, const Floats& right, std::size_t inner, std::size_t n,
+                        std::size_t i, std::size_t j) {
+    double sum = 0;
+    for (std::size_t k = 0; k < inner; ++k) {
+        sum += double{left[i * inner + k]} * double{right[k * n + j]};
+    }
+    return sum;
+}
+
+TEST_P(KernelsOf, AddProductAddsTheProductOfTwoMatrices) {
     for (const std::size_t count : {1U, 5U, 8U, 11U}) {
         for (const std::size_t inner : {0U, 1U, 13U}) {
             const Floats left = random_floats(count * inner, 25);
             const Floats right = random_floats(inner * n, 26);
-            Floats out(count * n + 1, 77.0F);
-            kernels::multiply(left.data(), count, inner, right.data(), n, out.data());
-            for (std::size_t i = 0; i < count * n; ++i) {
-                double expected = 0;
-                for (std::size_t k = 0; k < inner; ++k) {
-                    expected += double{left[i / n * inner + k]} * double{right[k * n + i % n]};
-                }
-                ASSERT_NEAR(out[i], expected, 1e-5);
-            }
-            EXPECT_EQ(out.back(), 77.0F) << "wrote past the end";
-            const Floats product = out;
+            const Floats before = random_floats(count * n + 1, 27);
+            Floats out = before;
             kernels::add_product(left.data(), count, inner, right.data(), n, out.data());
             for (std::size_t i = 0; i < count * n; ++i) {
-                ASSERT_NEAR(out[i], 2 * product[i], 1e-5);
+                const double product = entry_of_product(left, right, inner, n, i / n, i % n);
+                ASSERT_NEAR(out[i], before[i] + product, 1e-5);
             }
-            EXPECT_EQ(out.back(), 77.0F) << "wrote past the end";
+            EXPECT_EQ(out.back(), before.back()) << "wrote past the end";
         }
     }
+}
+
+TEST(Kernels, MultiplyIsTheProductWithAMatrixInPanels) {
+    for (const std::size_t columns : {16U, 32U, 48U, 80U, 208U}) {
+        for (const std::size_t count : {1U, 5U, 8U, 11U}) {
+            for (const std::size_t inner : {0U, 1U, 13U, 128U, 300U}) {
+                const Floats left = random_floats(count * inner, 25);
+                const Floats right = random_floats(inner * columns, 26);
+                Floats panels(right.size() + 1, 77.0F);
+                kernels::to_panels(right.data(), inner, columns, panels.data());
+                EXPECT_EQ(panels.back(), 77.0F) << "wrote past the end";
+                Floats out(count * columns + 1, 77.0F);
+                kernels::multiply(left.data(), count, inner, panels.data(), columns, out.data());
+                for (std::size_t i = 0; i < count * columns; ++i) {
+                    const double product =
+                        entry_of_product(left, right, inner, columns, i / columns, i % columns);
+                    ASSERT_NEAR(out[i], product, 1e-4);
+                }
+                EXPECT_EQ(out.back(), 77.0F) << "wrote past the end";
+            }
+        }
+    }
+}
+
+TEST(Kernels, PanelsAreColumnsSideBySide) {
+    // Two rows of 40 columns: 32 of each row, then the 8 that are left of each.
+    Floats matrix(80);
+    std::iota(matrix.begin(), matrix.end(), 0.0F);
+    Floats panels(80);
+    kernels::to_panels(matrix.data(), 2, 40, panels.data());
+    EXPECT_EQ(panels[0], 0.0F);
+    EXPECT_EQ(panels[31], 31.0F);
+    EXPECT_EQ(panels[32], 40.0F);
+    EXPECT_EQ(panels[64], 32.0F);
+    EXPECT_EQ(panels[72], 72.0F);
 }
 
 TEST_P(KernelsOf, AddScaledAddsAndStopsAtTheEnd) {

@@ -257,7 +257,7 @@ TEST(DictionaryLearning, DoesNotDependOnTheNumberOfThreads) {
 
 TEST(Dictionary, TransposedHasAnAtomInEachColumnAndWholeLines) {
     const Dictionary dictionary = random_dictionary(12, 12);
-    const AlignedFloats transposed = dictionary.transposed();
+    const AlignedFloats transposed = dictionary.transposed_panels();  // one panel
     ASSERT_EQ(transposed.size(), 16 * dictionary.stride());
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(transposed.data()) % 64, 0U);
     for (std::size_t i = 0; i < dictionary.stride(); ++i) {
