@@ -86,8 +86,8 @@ void JointSteps::encode(const CodingMatrices& matrices, const FieldBlock& block)
     std::array<LassoTask, kFieldsOfBlock> tasks;
     for (std::size_t i = 0; i < block.count(); ++i) {
         const std::size_t j = block.number[i];
-        tasks[i] = {correlations_of(block, i, matrices.d),
-                    coder_.lambda * fields_.lambda_share(j), codes[j]};
+        tasks[i] = {correlations_of(block, i, matrices.d), coder_.lambda * fields_.lambda_share(j),
+                    codes[j]};
     }
     coder_.solve(matrices.gram, std::span(tasks).first(block.count()));
 }

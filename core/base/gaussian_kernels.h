@@ -22,4 +22,13 @@ struct GaussianMoments {
 GaussianMoments gaussian_moments(const float place[3], const float* x, const float* y,
                                  const float* z, const float* weight, std::size_t n);
 
+/// Points under exp(-(sharpness d)^2 / 2), all of them, at distances d from `place`: where they are
+/// on average is (x, y, z) / weight.
+struct GaussianMean {
+    float weight;   ///< sum of the weights
+    float x, y, z;  ///< sums of the weighted coordinates
+};
+GaussianMean gaussian_mean(const float place[3], float sharpness, const float* x, const float* y,
+                           const float* z, std::size_t n);
+
 }  // namespace lpf::kernels

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "core/base/gaussian_kernels.h"
 #include "core/base/raise.h"
 #include "core/field/piece_growth.h"
 #include "core/field/seed_sizes.h"
@@ -40,8 +41,9 @@ constexpr double kEnoughSigmas = 3.5;
 constexpr double kMostBias = 0.3;
 constexpr double kShareOfMisfit = 0.1;
 
-/// From a point that noise has put somewhere to the middle of what is around it [sigma].
-constexpr double kShiftWidth = 1.2;
+/// From a point that noise has put somewhere to the middle of what is around it: under a kernel 1.2
+/// sigma wide, cut off at kShiftReach [sigma].
+constexpr float kShiftSharpness = 1 / 1.2F;
 constexpr float kShiftReach = 4.0F;
 constexpr int kShifts = 3;
 
@@ -239,20 +241,14 @@ private:
         Frame ball = seed.frame;
         ball.radius = seed.noise;
         grid_.gather(ball.centre, ball.radius, kShiftReach, target);
-        Eigen::Vector3d at = Eigen::Vector3d::Zero();
+        Eigen::Vector3f at = Eigen::Vector3f::Zero();
         for (int step = 0; step < kShifts; ++step) {
-            Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-            double weight = 0;
-            for (std::size_t i = 0; i < target.size; ++i) {
-                const Eigen::Vector3d p(target.x[i], target.y[i], target.z[i]);
-                const double w =
-                    std::exp(-(p - at).squaredNorm() / (2 * kShiftWidth * kShiftWidth));
-                sum += w * p;
-                weight += w;
-            }
-            if (weight > 0) at = sum / weight;
+            const kernels::GaussianMean mean =
+                kernels::gaussian_mean(at.data(), kShiftSharpness, target.x.data(), target.y.data(),
+                                       target.z.data(), target.size);
+            if (mean.weight > 0) at = Eigen::Vector3f(mean.x, mean.y, mean.z) / mean.weight;
         }
-        seed.frame.centre += seed.noise * at;
+        seed.frame.centre += seed.noise * at.cast<double>();
     }
 
     /// Whether most of the points about a seed belong to LPFs already.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -142,6 +144,14 @@ struct Surroundings {
     double full = 0.0;      ///< to the one that fills the ball
 };
 
+/// Brings the least of some values to the front. @returns how many these are, `count` at most
+std::ptrdiff_t keep_least(std::vector<float>& values, std::size_t count) {
+    const auto kept = static_cast<std::ptrdiff_t>(std::min(count, values.size()));
+    if (kept < std::ssize(values))
+        std::nth_element(values.begin(), values.begin() + kept, values.end());
+    return kept;
+}
+
 Surroundings surroundings(const PointGrid& grid, const Eigen::Vector3d& point, double radius,
                           std::size_t points_in_ball, NearPoints& ball,
                           std::vector<float>& squared) {
@@ -154,16 +164,15 @@ Surroundings surroundings(const PointGrid& grid, const Eigen::Vector3d& point, d
     for (std::size_t i = 0; i < ball.size; ++i) {
         squared[i] = ball.x[i] * ball.x[i] + ball.y[i] * ball.y[i] + ball.z[i] * ball.z[i];
     }
-    const std::size_t k = std::min(points_in_ball, ball.size);
-    std::partial_sort(squared.begin(), squared.begin() + static_cast<std::ptrdiff_t>(k),
-                      squared.end());
-    squared.resize(k);
-    const auto other = std::ranges::find_if(squared, [](float distance) { return distance > 0; });
-    if (other == squared.end()) return {};  // one of many duplicates
-    const std::size_t small = std::min(kPointsInSmallBall, k) - 1;
-    return {radius * std::sqrt(static_cast<double>(*other)),
-            radius * std::sqrt(static_cast<double>(squared[small])),
-            radius * std::sqrt(static_cast<double>(squared.back()))};
+    squared.resize(static_cast<std::size_t>(keep_least(squared, points_in_ball)));
+    const float full = std::ranges::max(squared);
+    float other = std::numeric_limits<float>::infinity();
+    for (const float distance : squared) other = distance > 0 ? std::min(distance, other) : other;
+    if (other > full) return {};  // one of many duplicates
+    const std::ptrdiff_t few = keep_least(squared, kPointsInSmallBall);
+    const float small = *std::max_element(squared.begin(), squared.begin() + few);
+    const auto length = [radius](float of) { return radius * std::sqrt(static_cast<double>(of)); };
+    return {length(other), length(small), length(full)};
 }
 
 /// Distances to the nearest other position, and to the point that makes the ball full.

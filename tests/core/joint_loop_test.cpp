@@ -8,6 +8,7 @@
 
 #include "core/base/error.h"
 #include "core/field_set.h"
+#include "core/gathered_fields.h"
 #include "core/learn/dictionary_learning.h"
 #include "core/learn/pose.h"
 #include "tests/support/meshes.h"
@@ -196,6 +197,89 @@ TEST(AnalysisLimits, AreThoseOfTheDocumentation) {
     EXPECT_FALSE(accepts([](auto& p) { p.smoothing = 0.51; }));
     EXPECT_TRUE(accepts([](auto& p) { p.noise = 0; }));
     EXPECT_FALSE(accepts([](auto& p) { p.noise = -0.01; }));
+}
+
+TEST(JointLoop, FollowersGoTheWayOfTheLeaders) {
+    // The dictionary is learned on some LPFs, or given: what is done to the others is the same.
+    const Shape shape = plate();
+    AnalysisParams params = params_for_plate();
+    params.iterations = 3;
+    FieldSet start(shape, params, {});
+    params.initial_dictionary = analyze(start, params, {}).dictionary;
+    params.keep_dictionary = true;
+    FieldSet all_lead(shape, params, {});
+    const AnalysisResult expected = analyze(all_lead, params, {});
+    ASSERT_GT(all_lead.usable().size(), 100U);
+    params.learning_sample = 7;
+    FieldSet most_follow(shape, params, {});
+    const AnalysisResult result = analyze(most_follow, params, {});
+    EXPECT_EQ(result.codes.values(), expected.codes.values());
+    EXPECT_EQ(result.residuals, expected.residuals);
+    for (std::size_t j = 0; j < expected.frames.size(); ++j) {
+        ASSERT_EQ(result.frames[j].axes, expected.frames[j].axes);
+        ASSERT_EQ(result.frames[j].origin, expected.frames[j].origin);
+    }
+    ASSERT_EQ(result.energy.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_NEAR(result.energy[i].learning, expected.energy[i].learning, 1e-12);
+        EXPECT_NEAR(result.energy[i].pose, expected.energy[i].pose, 1e-12);
+        EXPECT_NEAR(result.energy[i].probing, expected.energy[i].probing, 1e-12);
+    }
+}
+
+TEST(JointLoop, APathInPiecesIsTheSamePath) {
+    // Dictionaries so large that few of them are at hand together.
+    const Shape shape = plate();
+    AnalysisParams params = params_for_plate();
+    params.pattern.points = 1500;
+    params.atoms = 48;
+    params.learning_sample = 50;
+    params.iterations = 5;
+    const AnalysisResult result = analyze(shape, params, {});
+    const AnalysisResult again = analyze(shape, params, {.threads = 2});
+    EXPECT_EQ(result.codes.values(), again.codes.values());
+    params.iterations = 1;
+    const AnalysisResult first = analyze(shape, params, {});
+    EXPECT_EQ(result.energy[0].learning, first.energy[0].learning);
+    EXPECT_EQ(result.energy[0].probing, first.energy[0].probing);
+    for (std::size_t i = 1; i < result.energy.size(); ++i) {
+        EXPECT_LE(result.energy[i].pose, result.energy[i].learning);
+        EXPECT_GT(result.energy[i].probing, 0.0);
+    }
+}
+
+TEST(GatheredFields, AreProbedAsThoseThatAreGatheredAnew) {
+    const Shape shape = plate();
+    FieldSet fields(shape, params_for_plate(), {});
+    const std::vector<std::size_t> numbers = fields.usable();
+    GatheredFields gathered(fields, numbers);
+    FieldSet::Worker worker = fields.make_worker();
+    AlignedFloats field(worker.field.size());
+    for (int pass = 0; pass < 2; ++pass) {
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            fields.probe(numbers[i], worker.probe, worker.field.data());
+            gathered.probe(i, field.data());
+            ASSERT_EQ(field, worker.field);
+        }
+        fields.optimise_poses(1, {});  // they move; what was gathered stays good
+    }
+}
+
+TEST(GatheredFields, KeepNoMorePointsThanTheyMay) {
+    Shape shape;
+    shape.cloud.points = test::make_plane({.points = 60000}).points;
+    AnalysisParams params = params_for_plate();
+    params.radius = 0.9;  // so many LPFs hold more points than are kept
+    const FieldSet fields(shape, params, {});
+    const std::vector<std::size_t> numbers = fields.usable();
+    GatheredFields gathered(fields, numbers);
+    FieldSet::Worker worker = fields.make_worker();
+    AlignedFloats field(worker.field.size());
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        fields.probe(numbers[i], worker.probe, worker.field.data());
+        gathered.probe(i, field.data());
+        ASSERT_EQ(field, worker.field);
+    }
 }
 
 TEST(FieldSet, PassesOverLpfsOfTooFewPoints) {

@@ -92,5 +92,28 @@ TEST(GaussianKernels, MomentsOfAPairPointFromOneToTheOther) {
     EXPECT_FLOAT_EQ(m.by_chance, 1.25F * m.weight * m.weight);
 }
 
+TEST(GaussianKernels, MeanIsThatOfAllPointsUnderGaussians) {
+    const float place[3] = {0.2F, 0.1F, -0.4F};
+    constexpr float kSharpness = 0.8F;
+    for (const std::size_t n : {0U, 1U, 16U, 203U}) {
+        const Cloud cloud(n);
+        const GaussianMean m =
+            gaussian_mean(place, kSharpness, cloud.x.data(), cloud.y.data(), cloud.z.data(), n);
+        double weight = 0;
+        double x = 0;
+        double z = 0;
+        for (std::size_t i = 0; i < n; ++i) {
+            const double w = std::exp(-cloud.squared(i, place, double{kSharpness}) / 2);
+            weight += w;
+            x += w * double{cloud.x[i]};
+            z += w * double{cloud.z[i]};
+        }
+        const double tolerance = 1e-5 * (1 + weight);
+        EXPECT_NEAR(double{m.weight}, weight, tolerance);
+        EXPECT_NEAR(double{m.x}, x, tolerance);
+        EXPECT_NEAR(double{m.z}, z, tolerance);
+    }
+}
+
 }  // namespace
 }  // namespace lpf::kernels

@@ -102,6 +102,30 @@ TEST_P(PointGridOn, GathersInTheSameOrderEachTime) {
                            second.index.begin()));
 }
 
+TEST(NearPoints, AppendAddsSomeOfOthers) {
+    NearPoints others;
+    others.reserve(3);
+    others.size = 3;
+    for (std::size_t i = 0; i < 3; ++i) {
+        others.x[i] = static_cast<float>(i);
+        others.y[i] = 10 + others.x[i];
+        others.z[i] = 20 + others.x[i];
+        others.index[i] = static_cast<std::uint32_t>(i);
+    }
+    NearPoints points;
+    points.append(others, 1, 2);
+    points.append(others, 0, 1);
+    ASSERT_EQ(points.size, 3U);
+    const std::uint32_t order[] = {1, 2, 0};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto value = static_cast<float>(order[i]);
+        EXPECT_EQ(points.x[i], value);
+        EXPECT_EQ(points.y[i], 10 + value);
+        EXPECT_EQ(points.z[i], 20 + value);
+        EXPECT_EQ(points.index[i], order[i]);
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Clouds, PointGridOn, testing::ValuesIn(test::awkward_clouds()),
                          test::CloudName());
 
