@@ -40,40 +40,45 @@ struct Rows {
     std::size_t stride;
 };
 
-/// Adds to the sums the product of four rows (or fewer) of left with two registers (or one) of
-/// columns: so many sums that the adders are busy, and so few that they stay in registers.
+/// Rows of left that are multiplied together, with two registers of columns: so many sums that the
+/// adders are busy, and so few that they stay in registers.
+template <int kWidth>
+constexpr std::size_t kRowsOfTile = kWidth == 16 ? 8 : 4;
+
+/// The product of the rows of a tile (or fewer) with two registers (or one) of columns.
 /// @param inner values of a row of left, and rows of right
 /// kAdds: to what is in out, else to zero.
 template <int kWidth, bool kAdds>
 LPF_INLINE void multiply_tile(Rows left, std::size_t rows, std::size_t inner, Rows right,
                               std::size_t registers, float* out, std::size_t n) {
     using Floats = typename Registers<kWidth>::Floats;
-    const float* const a0 = left.values;
-    const float* const a1 = left.values + (1 % rows) * left.stride;
-    const float* const a2 = left.values + (2 % rows) * left.stride;
-    const float* const a3 = left.values + (3 % rows) * left.stride;
-    float* to[4];
-    for (std::size_t k = 0; k < 4; ++k) to[k] = out + (k % rows) * n;
+    constexpr std::size_t kRows = kRowsOfTile<kWidth>;
     const std::size_t next = (registers - 1) * kWidth;
-    Floats s0{}, s1{}, s2{}, s3{}, t0{}, t1{}, t2{}, t3{};
-    if constexpr (kAdds) {
-        s0 = floats_at<kWidth>(to[0]), t0 = floats_at<kWidth>(to[0] + next);
-        s1 = floats_at<kWidth>(to[1]), t1 = floats_at<kWidth>(to[1] + next);
-        s2 = floats_at<kWidth>(to[2]), t2 = floats_at<kWidth>(to[2] + next);
-        s3 = floats_at<kWidth>(to[3]), t3 = floats_at<kWidth>(to[3] + next);
+    const float* from[kRows];
+    float* to[kRows];
+    Floats s[kRows], t[kRows];
+#pragma GCC unroll 8
+    for (std::size_t k = 0; k < kRows; ++k) {
+        const std::size_t row = k < rows ? k : 0;
+        from[k] = left.values + row * left.stride;
+        to[k] = out + row * n;
+        s[k] = kAdds ? floats_at<kWidth>(to[k]) : Floats{};
+        t[k] = kAdds ? floats_at<kWidth>(to[k] + next) : Floats{};
     }
     for (std::size_t i = 0; i < inner; ++i) {
-        const Floats s = floats_at<kWidth>(right.values + i * right.stride);
-        const Floats t = floats_at<kWidth>(right.values + i * right.stride + next);
-        s0 += a0[i] * s, t0 += a0[i] * t;
-        s1 += a1[i] * s, t1 += a1[i] * t;
-        s2 += a2[i] * s, t2 += a2[i] * t;
-        s3 += a3[i] * s, t3 += a3[i] * t;
+        const Floats first = floats_at<kWidth>(right.values + i * right.stride);
+        const Floats second = floats_at<kWidth>(right.values + i * right.stride + next);
+#pragma GCC unroll 8
+        for (std::size_t k = 0; k < kRows; ++k) {
+            s[k] += from[k][i] * first;
+            t[k] += from[k][i] * second;
+        }
     }
-    const Floats sums[4][2] = {{s0, t0}, {s1, t1}, {s2, t2}, {s3, t3}};
-    for (std::size_t k = 0; k < rows; ++k) {
-        floats_at<kWidth>(to[k]) = sums[k][0];
-        floats_at<kWidth>(to[k] + next) = sums[k][1];
+#pragma GCC unroll 8
+    for (std::size_t k = 0; k < kRows; ++k) {
+        if (k >= rows) break;
+        floats_at<kWidth>(to[k]) = s[k];
+        floats_at<kWidth>(to[k] + next) = t[k];
     }
 }
 
@@ -81,10 +86,11 @@ LPF_INLINE void multiply_tile(Rows left, std::size_t rows, std::size_t inner, Ro
 template <int kWidth, bool kAdds>
 LPF_INLINE void multiply_columns(Rows left, std::size_t count, std::size_t inner, Rows right,
                                  std::size_t columns, float* out, std::size_t n) {
+    constexpr std::size_t kRows = kRowsOfTile<kWidth>;
     for (std::size_t j = 0; j < columns; j += 2 * kWidth) {
         const std::size_t registers = j + kWidth < columns ? 2 : 1;
-        for (std::size_t first = 0; first < count; first += 4) {
-            const std::size_t rows = count - first < 4 ? count - first : 4;
+        for (std::size_t first = 0; first < count; first += kRows) {
+            const std::size_t rows = count - first < kRows ? count - first : kRows;
             multiply_tile<kWidth, kAdds>({left.values + first * left.stride, left.stride}, rows,
                                          inner, {right.values + j, right.stride}, registers,
                                          out + first * n + j, n);
