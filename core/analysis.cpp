@@ -103,6 +103,7 @@ private:
             if (first + i < params_.iterations) learn(first + i, part_of(part, 0.3, 0.9));
             step_on(first + i, is_last && i + 1 == steps, part_of(part, 0.9, 1.0));
         }
+        sample_.fields = {};  // its memory is for others now
     }
 
     /// Step 1: learn the dictionary on the leaders (Sec. 3.3).
