@@ -19,8 +19,9 @@ void require(bool right, const std::string& message, const std::string& field) {
     if (!right) throw Error(ErrorCode::InvalidParameter, message, field);
 }
 
-/// Bytes of dictionaries that are at hand together.
+/// Bytes of dictionaries that are at hand together, and iterations: each has energies of its own.
 constexpr std::size_t kPathBytes = 2U << 20U;
+constexpr std::size_t kMostTogether = 32;
 
 /// So many LPFs go through these together: each dictionary is fetched once for all of them.
 constexpr std::size_t kFieldsAlongPath = 128;
@@ -82,7 +83,7 @@ private:
     [[nodiscard]] int iterations_together() const {
         const std::size_t atoms = steps_.codes.atoms();
         const std::size_t bytes = 2 * sizeof(float) * dictionary_.stride() * atoms;
-        return std::max(1, static_cast<int>(kPathBytes / bytes));
+        return static_cast<int>(std::clamp<std::size_t>(kPathBytes / bytes, 1, kMostTogether));
     }
 
     /// Of the work: learning takes about as long again.
