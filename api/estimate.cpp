@@ -28,6 +28,7 @@ constexpr double kPlaceField = 2.5e-6;
 constexpr double kGrowPoint = 1.2e-6;   // pieces of the shape
 constexpr double kTriangleProbe = 1.9;  // of a mesh, for one of points
 constexpr double kGatherPoint = 0.004e-6;
+constexpr double kGatherShare = 0.35;     // of a probe; LPFs that are probed again do without
 constexpr double kVote = 0.035e-6;        // two rounds
 constexpr double kUsualIterations = 1.5;  // of denoising, where a second may not be worth it
 constexpr double kOutputPoint = 10e-6;    // proposals, consensus and sources of a resampling
@@ -68,12 +69,17 @@ Seconds placing(const Workload& w, const AnalysisParams& p) {
 Seconds analysis(const Workload& w, const AnalysisParams& p) {
     const double kind = p.probing == ProbingKind::NearestTriangle ? kTriangleProbe : 1.0;
     const double probe = kind * probe_seconds(p.pattern.points) + kGatherPoint * w.points_per_field;
+    const double again = (1 - kGatherShare) * probe;
     const double code = code_seconds(p.pattern.points, p.atoms);
-    const double sample = p.keep_dictionary ? 0 : std::min<double>(p.learning_sample, w.fields);
-    const double learn = sample * (probe + p.learning_rounds * code);
-    const double pass = w.fields * (probe + code);
-    const double poses = w.fields * p.pose_iterations * probe;
-    return {0, poses + p.iterations * (learn + pass) + pass + w.fields * code};
+    const double poses =
+        p.pose_iterations > 0 ? w.fields * (probe + (p.pose_iterations - 1) * again) : 0.0;
+    // The LPFs that are learned on are coded as they were probed for that.
+    const double leaders = std::min<double>(p.learning_sample, w.fields);
+    const double followers = w.fields - leaders;
+    const double learn = leaders * (probe + (p.keep_dictionary ? 0 : p.learning_rounds) * code);
+    const double pass = followers * again + w.fields * code;
+    const double closing = leaders * probe + followers * again + 2 * w.fields * code;
+    return {0, poses + followers * (probe - again) + p.iterations * (learn + pass) + closing};
 }
 
 Seconds denoising(const Workload& w, const DenoiseParams& p) {
