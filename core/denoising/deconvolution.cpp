@@ -1,6 +1,8 @@
 #include "core/denoising/deconvolution.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -27,8 +29,14 @@ constexpr float kChance = 1.5F;
 /// What is so unlikely, relative to a point on a surface, has hardly come from the shape.
 constexpr double kBackground = 1e-5;
 
-/// Side of the cells of grids, and of the groups of points that are worked on together [sigma].
+/// Side of the cells of grids [sigma].
 constexpr double kCell = 2.0;
+
+/// Points that are worked on together lie in a box of this side at most [sigma], in a smaller one
+/// if it holds so many: the larger it is, the more is looked at that is near another of them.
+constexpr double kLeastSide = 0.5;
+constexpr double kPointsOfGroup = 64.0;
+constexpr double kLooseness = 1.5;  // for those that move
 constexpr std::size_t kGroupsPerChunk = 32;
 constexpr std::size_t kPointsPerFollowers = 1024;
 
@@ -58,19 +66,38 @@ double sum_on_surface(double near) {
     return 2 * near / (reach * reach);
 }
 
+/// Side of the groups of points of which so many lie within the reach of noise [sigma].
+double side_of_groups(double near) {
+    const double reach = static_cast<double>(kGaussianReach);
+    const double disk = std::numbers::pi * reach * reach;
+    return std::clamp(std::sqrt(kPointsOfGroup * disk / near), kLeastSide, kCell);
+}
+
+/// Some points of a cloud, cell by cell.
+std::vector<std::uint32_t> by_cells(const std::vector<std::uint32_t>& some, const Points& points,
+                                    double cell, const Execution& execution) {
+    const PointGrid grid(selected(points, some, execution), cell, execution);
+    std::vector<std::uint32_t> sorted;
+    sorted.reserve(some.size());
+    for (const std::uint32_t i : grid.order()) sorted.push_back(some[i]);
+    return sorted;
+}
+
 /// A bent part of a cloud and its scan; one method for each step.
 class Deconvolution {
 public:
     /// @param shape, scan the points that matter, row by row
     Deconvolution(const BentPart& part, Points shape, const Points& scan, double noise,
                   const Execution& execution)
-        : bent_(part.bent),
+        : side_(side_of_groups(part.near)),
+          bent_(by_cells(part.bent, shape, side_ * noise, execution)),
           noise_(noise),
           stride_(stride_to(kMostOfShape, part.near)),
           background_(static_cast<float>(kBackground *
                                          sum_on_surface(part.near / static_cast<double>(stride_)))),
           shape_(std::move(shape)),
-          scan_(one_in(stride_to(kMostOfScan, part.near), scan), kCell * noise, execution),
+          scan_side_(side_of_groups(std::min(part.near, kMostOfScan))),
+          scan_(one_in(stride_to(kMostOfScan, part.near), scan), scan_side_ * noise, execution),
           scan_groups_(groups_of_scan(execution)) {}
 
     Points run(const Execution& execution) && {
@@ -185,14 +212,16 @@ private:
 
     [[nodiscard]] std::vector<NearGroup> groups_of_bent(const Execution& execution) const {
         return near_groups(
-            bent_.size(), kCell * noise_, [&](std::size_t i) { return bent(i); }, execution);
+            bent_.size(), kLooseness * side_ * noise_, [&](std::size_t i) { return bent(i); },
+            execution);
     }
 
     /// Groups of the scan that bent points have to explain, now or when they have moved.
     [[nodiscard]] std::vector<NearGroup> groups_of_scan(const Execution& execution) const {
         const PointGrid bent(selected(shape_, bent_, execution), kCell * noise_, execution);
         auto groups = near_groups(
-            scan_.size(), kCell * noise_, [&](std::size_t i) { return scan_.point(i); }, execution);
+            scan_.size(), scan_side_ * noise_, [&](std::size_t i) { return scan_.point(i); },
+            execution);
         std::vector<std::uint8_t> is_near(groups.size(), 0);
         parallel_for(execution, groups.size(), kGroupsPerChunk,
                      [&](std::size_t begin, std::size_t end, std::size_t) {
@@ -240,11 +269,13 @@ private:
                                          weights.data(), near.size);
     }
 
-    const std::vector<std::uint32_t>& bent_;
+    double side_;  // of groups of bent points [sigma]
+    std::vector<std::uint32_t> bent_;
     double noise_;
     std::size_t stride_;  // one in so many points of the shape stands for all
     float background_;
     Points shape_;
+    double scan_side_;  // of groups of the scan [sigma]
     PointGrid scan_;
     std::vector<NearGroup> scan_groups_;
 };
