@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <memory>
 #include <string>
 
 #include "core/base/error.h"
@@ -54,7 +55,7 @@ public:
           sample_{{}, dictionary_.stride(), {}} {
         std::ranges::set_difference(fields.usable(), leaders_, std::back_inserter(followers_));
         for (const std::size_t j : leaders_) sample_.lambda_share.push_back(fields.lambda_share(j));
-        path_.emplace_back(dictionary_, -1);
+        if (params.keep_dictionary) matrices_ = std::make_shared<CodingMatrices>(dictionary_);
     }
 
     void run(const Execution& execution) {
@@ -120,12 +121,12 @@ private:
         }
         learn_dictionary(sample_, steps_.coder(), params_.learning_rounds, params_.random_seed,
                          dictionary_, codes, execution);
+        matrices_ = std::make_shared<CodingMatrices>(dictionary_);
     }
 
     /// Takes the leaders, as they were probed to learn from, one iteration on.
     void step_on(int number, bool closes, const Execution& execution) {
-        path_.emplace_back(dictionary_, number);
-        path_.back().closes = closes;
+        path_.push_back({matrices_, number, closes});
         const std::size_t stride = sample_.stride;
         Sums sums(chunk_count(leaders_.size(), kFieldsPerChunk) * 2);
         parallel_for(
@@ -148,11 +149,13 @@ private:
         parallel_for(execution, "analyze", "fields", followers_.size(), kFieldsAlongPath,
                      [&](std::size_t begin, std::size_t end, std::size_t chunk) {
                          BlockRoom room(sample_.stride, dictionary_.atoms());
+                         AlignedFloats fields(kFieldsOfBlock * sample_.stride);
                          const auto numbers = std::span(followers_).subspan(begin, end - begin);
                          GatheredFields gathered(fields_, numbers);
                          for (std::size_t step = 1; step < path_.size(); ++step) {
                              for_each_block(numbers, [&](std::size_t i, auto some) {
-                                 const FieldBlock block = room.block(some);
+                                 const FieldBlock block = room.block(
+                                     some, std::span(fields).first(some.size() * sample_.stride));
                                  for (std::size_t k = 0; k < some.size(); ++k) {
                                      gathered.probe(i + k, block.field(k).data());
                                  }
@@ -202,12 +205,13 @@ private:
     const AnalysisParams& params_;
     bool stays_;  // where all LPFs do, the last iteration gives the last codes
     Dictionary dictionary_;
+    std::shared_ptr<const CodingMatrices> matrices_;  // of the dictionary as it was last learned
     JointSteps steps_;
     Sums energy_;                         // of all LPFs; one more for the codes of the last poses
     std::vector<std::size_t> leaders_;    // the LPFs that the dictionary is learned on
     std::vector<std::size_t> followers_;  // all others
     FieldSample sample_;                  // the fields of the leaders
-    std::vector<Iteration> path_;         // some iterations, and the one before them
+    std::vector<Iteration> path_ = std::vector<Iteration>(1);  // some, and the one before them
 };
 
 }  // namespace

@@ -30,8 +30,7 @@ std::span<const float> correlations_of(const FieldBlock& block, std::size_t i, s
 }  // namespace
 
 BlockRoom::BlockRoom(std::size_t stride, std::size_t d)
-    : fields_(kFieldsOfBlock * stride),
-      decoded_(kFieldsOfBlock * stride),
+    : decoded_(kFieldsOfBlock * stride),
       correlations_(kFieldsOfBlock * whole_lines(d)),
       codes_(kFieldsOfBlock * d) {}
 
@@ -40,11 +39,6 @@ FieldBlock BlockRoom::block(std::span<const std::size_t> numbers, std::span<floa
         return std::span(all).first(all.size() / kFieldsOfBlock * numbers.size());
     };
     return {numbers, fields, some(decoded_), some(correlations_), some(codes_)};
-}
-
-FieldBlock BlockRoom::block(std::span<const std::size_t> numbers) {
-    return block(numbers,
-                 std::span(fields_).first(fields_.size() / kFieldsOfBlock * numbers.size()));
 }
 
 JointSteps::JointSteps(FieldSet& fields, const AnalysisParams& params, int atoms)
@@ -56,14 +50,14 @@ JointSteps::JointSteps(FieldSet& fields, const AnalysisParams& params, int atoms
 
 void JointSteps::close(const Iteration& last, const FieldBlock& block, IterationEnergy& sum) const {
     if (last.number < 0) return;
-    decode(last.matrices, block);
+    decode(*last.matrices, block);
     for (std::size_t i = 0; i < block.count(); ++i) sum.probing += energy(block, i);
 }
 
 void JointSteps::iterate(const Iteration& iteration, const FieldBlock& block,
                          IterationEnergy& sum) {
-    encode(iteration.matrices, block);
-    decode(iteration.matrices, block);
+    encode(*iteration.matrices, block);
+    decode(*iteration.matrices, block);
     for (std::size_t i = 0; i < block.count(); ++i) {
         const double learned = energy(block, i);
         sum.learning += learned;
@@ -102,7 +96,7 @@ void JointSteps::move_to_fit(const FieldBlock& block, std::size_t i) {
 
 /// The codes as they are to be, and what they leave of the fields.
 void JointSteps::finish(const Iteration& iteration, const FieldBlock& block) {
-    const CodingMatrices& matrices = iteration.matrices;
+    const CodingMatrices& matrices = *iteration.matrices;
     if (params_.debias) {
         for (std::size_t i = 0; i < block.count(); ++i) {
             debias({matrices.gram, correlations_of(block, i, matrices.d), 0.0F},

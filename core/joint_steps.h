@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -13,11 +14,8 @@ namespace lpf {
 
 /// What LPFs go through one iteration of the joint loop with.
 struct Iteration {
-    Iteration(const Dictionary& dictionary, int its_number)
-        : matrices(dictionary), number(its_number) {}
-
-    CodingMatrices matrices;
-    int number;           ///< from 0; -1 where none was yet
+    std::shared_ptr<const CodingMatrices> matrices;  ///< none where no iteration was yet
+    int number = -1;                                 ///< from 0; -1 where none was yet
     bool closes = false;  ///< LPFs stay, and their codes are the last ones
 };
 
@@ -46,14 +44,11 @@ public:
     /// @param stride floats of a field  @param d atoms
     BlockRoom(std::size_t stride, std::size_t d);
 
-    /// LPFs whose fields are at hand.
+    /// @param fields those of the LPFs, or room for them
     [[nodiscard]] FieldBlock block(std::span<const std::size_t> numbers, std::span<float> fields);
 
-    /// LPFs whose fields are still to be probed.
-    [[nodiscard]] FieldBlock block(std::span<const std::size_t> numbers);
-
 private:
-    AlignedFloats fields_, decoded_, correlations_, codes_;  // of kFieldsOfBlock LPFs
+    AlignedFloats decoded_, correlations_, codes_;  // of kFieldsOfBlock LPFs
 };
 
 /// The steps of the joint loop for blocks of LPFs (paper Sec. 3.2), and what they leave. Any number
