@@ -11,6 +11,7 @@
 #include "server/cores.h"
 #include "server/gate/api_keys.h"
 #include "server/http/health_check.h"
+#include "server/large_pages.h"
 
 namespace {
 
@@ -81,6 +82,7 @@ int main(int argc, char** argv) {
     if (!line.config.hash_key.empty()) return print_key_line(line.config.hash_key);
     if (line.config.health_check)
         return is_healthy(line.config.host, line.config.admin_port) ? 0 : 1;
+    use_large_pages(argv);
     const Config config =
         resolve_memory(resolve_threads(line.config, usable_cores()), usable_memory());
     Log log(config.log_level);

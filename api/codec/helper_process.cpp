@@ -68,16 +68,22 @@ private:
     posix_spawnattr_t attributes_{};
 };
 
-/// Empty in the product. Where the helper is built with a sanitizer, it must know where to report.
+/// How to allocate, and nothing else of the caller's. Where the helper is built with a sanitizer,
+/// it must know where to report.
+constexpr const char* kPassedOn[] = {
+    "GLIBC_TUNABLES",
+#ifdef LPF_SANITIZED
+    "ASAN_OPTIONS",   "UBSAN_OPTIONS", "TSAN_OPTIONS", "LSAN_OPTIONS",
+#endif
+};
+
 std::vector<std::string> helper_environment() {
     std::vector<std::string> environment;
-#ifdef LPF_SANITIZED
-    for (const char* name : {"ASAN_OPTIONS", "UBSAN_OPTIONS", "TSAN_OPTIONS", "LSAN_OPTIONS"}) {
+    for (const char* name : kPassedOn) {
         if (const char* value = std::getenv(name)) {
             environment.push_back(message_of(name, "=", value));
         }
     }
-#endif
     return environment;
 }
 

@@ -1,6 +1,5 @@
 #include "core/base/vote_kernels.h"
 
-#include "core/base/exponential.h"
 #include "core/base/multiversion.h"
 #include "core/base/polynomial.h"
 
@@ -149,7 +148,8 @@ void weigh(const Weighing& how, const float* x, const float* y, const float* mx,
         float density = weight[i] < 1.0F ? weight[i] : 1.0F;
         density = density > how.least_density ? density : how.least_density;
         const float squared = mx[i] * mx[i] + my[i] * my[i] + mz[i] * mz[i];
-        const float likelihood = exponential(-0.5F * how.precision * squared);
+        const float root = 1.0F / (1.0F + 0.125F * how.precision * squared);
+        const float likelihood = root * root * root * root;
         const float counted = how.reliability * fade * density * likelihood;
         weight[i] = inside > 0.0F ? counted : 0.0F;
     }

@@ -43,12 +43,15 @@ void add_cubic_change(const float c[4], float sign, const float* x, const float*
 /// (x, y, z) <- axes (x, y, z), in place; axes row-major 3 x 3.
 void rotate(const float axes[9], float* x, float* y, float* z, std::size_t n);
 
-/// What a vote for the move (mx, my, mz) of the point (x, y) counts.
+/// What a vote for the move m = (mx, my, mz) of the point (x, y) counts. Its likelihood is
+/// Student's t-distribution of seven degrees of freedom, (1 + m^2 precision / 8)^-4: up to the
+/// width that of a normal distribution, but points that noise has moved far are not held back by
+/// whichever LPF moves them least.
 struct Weighing {
     float reliability;  ///< of the LPF
     bool fades;         ///< towards the rim of the disk, as (1 - r^2)^2; outside it counts nothing
     float least_density;  ///< densities are cut to [least_density, 1]
-    float precision;      ///< of the likely moves, 1 / sigma^2; 0: all are likely
+    float precision;      ///< of the likely moves, 1 / width^2; 0: all are likely
 };
 
 /// weight[i]: a density in, the weight of the vote out.

@@ -14,9 +14,9 @@
 namespace lpf {
 namespace {
 
-/// A vote to move by this many sigma of the noise that the shape had counts 0.6 times one to stay:
+/// A vote to move by this many sigma of the noise that the shape had counts 0.62 times one to stay:
 /// wider than where the points themselves were noisy, since LPFs that disagree are to be averaged.
-constexpr double kWidth = 2.0;
+constexpr double kWidth = 1.6;
 
 /// A point that is moved by more than so many sigma, and this share of the spacing, is a stray.
 constexpr double kSigmasOfStray = 1.0;

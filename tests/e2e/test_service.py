@@ -3,6 +3,8 @@
 import pytest
 import requests
 
+import program
+
 
 @pytest.mark.parametrize("path", ["/v1/", "/v1/conformance", "/v1/info", "/v1/processes",
                                   "/v1/processes/denoise", "/v1/processes/resample",
@@ -91,3 +93,27 @@ def test_admin_listener(start):
     metrics = requests.get(server.admin_url + "/metrics", timeout=10)
     assert "lpf_queue_depth 0" in metrics.text
     assert requests.get(server.url + "/metrics", timeout=10).status_code == 404
+
+
+def environment_of(pid):
+    """As text; glibc cuts its own variable into pieces where it lies."""
+    with open(f"/proc/{pid}/environ", encoding="utf-8") as file:
+        return file.read().replace("\0", ":")
+
+
+@pytest.mark.parametrize("told, expected", [
+    (None, "glibc.malloc.hugetlb=1"),
+    ("glibc.malloc.arena_max=3", "glibc.malloc.hugetlb=1:glibc.malloc.arena_max=3"),
+    ("glibc.malloc.hugetlb=0", "glibc.malloc.hugetlb=0")])
+def test_asks_for_large_pages_unless_told_not_to(start, monkeypatch, told, expected):
+    if told and program.IMAGE:
+        pytest.skip("a container has an environment of its own")
+    if told:
+        monkeypatch.setenv("GLIBC_TUNABLES", told)
+    else:
+        monkeypatch.delenv("GLIBC_TUNABLES", raising=False)
+    server = start()
+    assert f"GLIBC_TUNABLES={expected}:" in environment_of(server.pid)
+    with open(f"/proc/{server.pid}/comm", encoding="utf-8") as file:
+        assert file.read().strip() == "lpf-server"
+    assert requests.get(server.url + "/v1/info", timeout=10).status_code == 200

@@ -19,6 +19,7 @@
 #include "core/auto_parameters.h"
 #include "core/denoising/tiled_denoise.h"
 #include "core/shape/outliers.h"
+#include "server/large_pages.h"
 #include "server/shapes/streaming.h"
 #include "server/store/file_blob_store.h"
 #include "server/store/mapped_file.h"
@@ -204,6 +205,7 @@ int main(int argc, char** argv) {
     app.add_option("-o", options.output, "keep the result here");
     app.add_flag("--json", options.json);
     CLI11_PARSE(app, argc, argv);
+    lpf::server::use_large_pages(argv);  // as the server does
     try {
         CostMeter meter;
         const Work work = run(options, meter);

@@ -148,7 +148,7 @@ TEST_P(VoteKernelsOf, WeightsAreReliabilityFadeDensityAndLikelihood) {
         const double expected = inside <= 0 ? 0.0
                                             : 1.5 * inside * inside *
                                                   std::clamp(double{density[i]}, 0.1, 1.0) *
-                                                  std::exp(-0.5 * 4 * squared);
+                                                  std::pow(1 + 4 * squared / 8, -4);
         ASSERT_NEAR(weight[i], expected, 1e-5);
     }
 }
