@@ -26,12 +26,14 @@ constexpr double kNormalPoint = 8e-6;
 constexpr double kPlacePoint = 0.1e-6;
 constexpr double kPlaceField = 2.5e-6;
 constexpr double kGrowPoint = 1.2e-6;   // pieces of the shape
-constexpr double kTriangleProbe = 1.9;  // of a mesh, for one of points
+constexpr double kTriangleProbe = 1.0;  // of a mesh, for one of points
 constexpr double kGatherPoint = 0.004e-6;
-constexpr double kGatherShare = 0.35;     // of a probe; LPFs that are probed again do without
-constexpr double kVote = 0.035e-6;        // two rounds
-constexpr double kUsualIterations = 1.5;  // of denoising, where a second may not be worth it
-constexpr double kOutputPoint = 10e-6;    // proposals, consensus and sources of a resampling
+constexpr double kGatherShare = 0.35;       // of a probe; LPFs that are probed again do without
+constexpr double kVote = 0.035e-6;          // two rounds
+constexpr double kUsualIterations = 1.5;    // of denoising, where a second may not be worth it
+constexpr double kOutputPoint = 10e-6;      // of a resampling: votes, sources
+constexpr double kCandidateOfAll = 1.2e-6;  // proposed and settled, in all tries to meet a number
+constexpr double kProposals = 3;            // such tries: a mesh is probed for each
 constexpr double kEncodePoint = 0.3e-6;
 constexpr double kEncodePointApart = 1.5e-6;
 constexpr double kWriteByte = 4e-9;
@@ -59,6 +61,19 @@ struct Seconds {
         return {factor * s.alone, factor * s.shared};
     }
 };
+
+/// Places at which each field proposes points.
+double places_of_field(const Workload& w, const ResolvedParameters& p) {
+    const double m = p.analysis.pattern.points;
+    const double step = std::sqrt(std::numbers::pi / m);  // [radius]
+    const double area = w.fields * 0.25 * p.analysis.radius * p.analysis.radius;
+    const double spacing = p.resample.target_spacing > 0
+                               ? p.resample.target_spacing
+                               : std::sqrt(area / std::max(w.output_points, 1.0));
+    const double cuts =
+        std::clamp(std::ceil(step * p.analysis.radius / (1.1 * spacing)), 1.0, 16.0);
+    return m * cuts * cuts;
+}
 
 Seconds placing(const Workload& w, const AnalysisParams& p) {
     return {kPlacePoint * w.probed_points + kPlaceField * w.fields,
@@ -89,13 +104,22 @@ Seconds denoising(const Workload& w, const DenoiseParams& p) {
     return (p.least_bent > 0 ? kUsualIterations : p.iterations) * once;
 }
 
+Seconds proposing(const Workload& w, const ResolvedParameters& p) {
+    const double probes =
+        p.analysis.probing == ProbingKind::NearestTriangle
+            ? kProposals * kTriangleProbe * probe_seconds(p.analysis.pattern.points)
+            : 0.0;
+    return {0, w.fields * (probes + kCandidateOfAll * places_of_field(w, p)) +
+                   kOutputPoint * w.output_points};
+}
+
 Seconds method(const Workload& w, const ResolvedParameters& p) {
     if (w.task == Task::Denoise) return denoising(w, p.denoise);
     Seconds sum = placing(w, p.analysis);
     sum += analysis(w, p.analysis);
     if (w.task == Task::Analyze) return sum;
     if (p.resample.denoise) sum += denoising(w, *p.resample.denoise);
-    sum.shared += kOutputPoint * w.output_points;
+    sum += proposing(w, p);
     return sum;
 }
 
@@ -125,8 +149,10 @@ constexpr double kApartPoint = 150;
 constexpr double kApartFace = 200;
 constexpr double kTreePoint = 44;
 constexpr double kGridPoint = 66;
-constexpr double kBallotPoint = 56;  // sums, and the moves of two rounds
-constexpr double kBentPoint = 30;    // copies of what is deconvolved, if that is all of a cloud
+constexpr double kMeshSample = 28;     // of a mesh that is probed
+constexpr double kAnalysisOnce = 4e6;  // dictionaries on the way, rooms of the threads
+constexpr double kBallotPoint = 56;    // sums, and the moves of two rounds
+constexpr double kBentPoint = 30;      // copies of what is deconvolved, if that is all of a cloud
 constexpr double kTilePoint = 180;
 constexpr double kPointsAround = 1.3;  // those of a tile with those around it, for its own
 constexpr double kStreamedPoint = 18;  // moves, and numbers of the points of tiles
@@ -138,27 +164,15 @@ constexpr double kAgreedPoint = 36;           // in its cell, with its LPF
 constexpr double kJobBytes = 5e6;
 constexpr double kSafety = 1.15;
 
-/// Places at which each field proposes points.
-double places_of_field(const Workload& w, const ResolvedParameters& p) {
-    const double m = p.analysis.pattern.points;
-    const double step = std::sqrt(std::numbers::pi / m);  // [radius]
-    const double area = w.fields * 0.25 * p.analysis.radius * p.analysis.radius;
-    const double spacing = p.resample.target_spacing > 0
-                               ? p.resample.target_spacing
-                               : std::sqrt(area / std::max(w.output_points, 1.0));
-    const double cuts =
-        std::clamp(std::ceil(step * p.analysis.radius / (1.1 * spacing)), 1.0, 16.0);
-    return m * cuts * cuts;
-}
-
 double method_bytes(const Workload& w, const ResolvedParameters& p) {
     const AnalysisParams& a = p.analysis;
     const double padded = 16.0 * std::ceil(a.pattern.points / 16.0);
     const double sample = std::min<double>(a.learning_sample, w.fields);
     const double learning = sample * (12.0 * padded + 8.0 * a.atoms);
     const double fields = w.fields * (kField + 4.0 * a.atoms);
-    const double grid = kGridPoint * w.probed_points;
-    double bytes = learning + fields + grid;
+    const bool has_samples = a.probing == ProbingKind::NearestTriangle;
+    const double grid = (kGridPoint + (has_samples ? kMeshSample : 0.0)) * w.probed_points;
+    double bytes = kAnalysisOnce + learning + fields + grid;
     if (w.task == Task::Denoise) bytes += (kPosition + kBallotPoint + kBentPoint) * w.points;
     if (w.task == Task::Resample) {
         const double candidates = w.fields * places_of_field(w, p);

@@ -100,12 +100,13 @@ private:
         for (int i = 0; i < steps; ++i) {
             const Execution part =
                 step_of(execution, static_cast<std::size_t>(i), static_cast<std::size_t>(steps));
+            sample_.fields = AlignedFloats();  // before its like takes as much
             sample_.fields = fields_.probe_sample(leaders_, part_of(part, 0.0, 0.3));
             // After all iterations come the codes that belong to the last poses.
             if (first + i < params_.iterations) learn(first + i, part_of(part, 0.3, 0.9));
             step_on(first + i, is_last && i + 1 == steps, part_of(part, 0.9, 1.0));
         }
-        sample_.fields = {};  // its memory is for others now
+        sample_.fields = AlignedFloats();  // its memory is for others now
     }
 
     /// Step 1: learn the dictionary on the leaders (Sec. 3.3).

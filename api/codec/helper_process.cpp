@@ -68,22 +68,22 @@ private:
     posix_spawnattr_t attributes_{};
 };
 
-/// How to allocate, and nothing else of the caller's. Where the helper is built with a sanitizer,
-/// it must know where to report.
-constexpr const char* kPassedOn[] = {
-    "GLIBC_TUNABLES",
-#ifdef LPF_SANITIZED
-    "ASAN_OPTIONS",   "UBSAN_OPTIONS", "TSAN_OPTIONS", "LSAN_OPTIONS",
-#endif
-};
+/// How to allocate: a process that soon ends takes large pages, all from one heap, and keeps them.
+constexpr const char* kAllocation =
+    "GLIBC_TUNABLES=glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=1073741824:"
+    "glibc.malloc.trim_threshold=1073741824";
 
+/// Nothing of the caller's. Where the helper is built with a sanitizer, it must know where to
+/// report.
 std::vector<std::string> helper_environment() {
-    std::vector<std::string> environment;
-    for (const char* name : kPassedOn) {
+    std::vector<std::string> environment{kAllocation};
+#ifdef LPF_SANITIZED
+    for (const char* name : {"ASAN_OPTIONS", "UBSAN_OPTIONS", "TSAN_OPTIONS", "LSAN_OPTIONS"}) {
         if (const char* value = std::getenv(name)) {
             environment.push_back(message_of(name, "=", value));
         }
     }
+#endif
     return environment;
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/field/probing.h"
 
@@ -14,6 +15,61 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr int kFinestSubdivision = 1024;
 
 using Triangle = std::array<Eigen::Vector3f, 3>;
+
+/// What a triangle covers of the plane.
+struct Shadow {
+    float low_x, high_x, low_y, high_y;
+
+    explicit Shadow(const Triangle& corners) {
+        const auto [lowest_x, highest_x] =
+            std::minmax({corners[0].x(), corners[1].x(), corners[2].x()});
+        const auto [lowest_y, highest_y] =
+            std::minmax({corners[0].y(), corners[1].y(), corners[2].y()});
+        low_x = lowest_x;
+        high_x = highest_x;
+        low_y = lowest_y;
+        high_y = highest_y;
+    }
+
+    /// Rounding finds nothing outside of it.
+    void widen() {
+        constexpr float kShare = 1e-4F;
+        constexpr float kLeast = 1e-6F;
+        const float by = kShare * std::max(high_x - low_x, high_y - low_y) + kLeast;
+        low_x -= by;
+        high_x += by;
+        low_y -= by;
+        high_y += by;
+    }
+
+    [[nodiscard]] float squared_distance(float x, float y) const {
+        const float dx = std::max({low_x - x, x - high_x, 0.0F});
+        const float dy = std::max({low_y - y, y - high_y, 0.0F});
+        return dx * dx + dy * dy;
+    }
+};
+
+/// Nodes that follow each other, of one y and with ascending x.
+struct NodeRow {
+    float y;
+    int first;
+    int end;
+};
+
+/// Of a grid, with ascending y; of other patterns, each node is one.
+std::vector<NodeRow> rows_of(const Pattern& pattern) {
+    std::vector<NodeRow> rows;
+    const float* y = pattern.channel(1);
+    for (int i = 0; i < pattern.size(); ++i) {
+        if (pattern.grid_size() > 0 && i > 0 && y[i] == y[i - 1]) {
+            rows.back().end = i + 1;
+        } else {
+            rows.push_back({y[i], i, i + 1});
+        }
+    }
+    std::ranges::sort(rows, {}, &NodeRow::y);
+    return rows;
+}
 
 /// Nearest point of segment ab to (x, y) in the plane: its height and squared distance.
 void nearest_on_segment(const Eigen::Vector3f& a, const Eigen::Vector3f& b, float x, float y,
@@ -34,7 +90,11 @@ class NearestTriangleProbing final : public ProbingOperator {
 public:
     NearestTriangleProbing(const Pattern& pattern, const Shape& mesh, const MeshSamples& samples,
                            const PointGrid& grid)
-        : pattern_(pattern), mesh_(mesh), samples_(samples), grid_(grid) {}
+        : pattern_(pattern),
+          rows_(rows_of(pattern_)),
+          mesh_(mesh),
+          samples_(samples),
+          grid_(grid) {}
 
     void probe(const Frame& frame, bool, ProbeScratch& scratch, float* v) const override {
         const int m = pattern_.size();
@@ -63,7 +123,8 @@ private:
         std::vector<std::uint32_t>& found = scratch.triangles;
         found.clear();
         for (std::size_t i = 0; i < scratch.target.size; ++i) {
-            found.push_back(samples_.triangle[grid_.order()[scratch.target.index[i]]]);
+            const std::uint32_t t = samples_.triangle[grid_.order()[scratch.target.index[i]]];
+            if (found.empty() || found.back() != t) found.push_back(t);  // fewer to sort
         }
         std::sort(found.begin(), found.end());
         found.erase(std::unique(found.begin(), found.end()), found.end());
@@ -94,7 +155,9 @@ private:
         constexpr float kRim = -1e-5F;  // neighbours leave no gap between them
         const float* x = pattern_.channel(0);
         const float* y = pattern_.channel(1);
-        for (int i = 0; i < pattern_.size(); ++i) {
+        Shadow shadow(corners);
+        shadow.widen();
+        const auto meet = [&](std::ptrdiff_t i) {
             const float px = x[i] - corners[0].x();
             const float py = y[i] - corners[0].y();
             const float b = (px * ac.y() - py * ac.x()) * inverse;
@@ -102,6 +165,14 @@ private:
             const float z = corners[0].z() + b * ab.z() + c * ac.z();
             const bool hit = b >= kRim && c >= kRim && b + c <= 1 - kRim;
             if (hit && std::abs(z) < std::abs(height[i])) height[i] = z;
+        };
+        for (auto row = std::ranges::lower_bound(rows_, shadow.low_y, {}, &NodeRow::y);
+             row != rows_.end() && row->y <= shadow.high_y; ++row) {
+            const float* const end = x + row->end;
+            for (const float* node = std::lower_bound(x + row->first, end, shadow.low_x);
+                 node != end && *node <= shadow.high_x; ++node) {
+                meet(node - x);
+            }
         }
     }
 
@@ -110,8 +181,10 @@ private:
         const float y = pattern_.channel(1)[node];
         Eigen::Vector3f best = pattern_.point(node);
         float squared = kInfinity;
+        constexpr float kRoundingDown = 0.9999F;
         for (std::size_t t = 0; t < scratch.triangles.size(); ++t) {
             const Triangle corners = triangle(scratch, t);
+            if (kRoundingDown * Shadow(corners).squared_distance(x, y) > squared) continue;
             for (std::size_t side = 0; side < 3; ++side) {
                 nearest_on_segment(corners[side], corners[(side + 1) % 3], x, y, squared, best);
             }
@@ -120,6 +193,7 @@ private:
     }
 
     Pattern pattern_;
+    std::vector<NodeRow> rows_;
     const Shape& mesh_;
     const MeshSamples& samples_;
     const PointGrid& grid_;

@@ -55,7 +55,7 @@ private:
         high.fields = near(high.box, block.fields);
         // Where LPFs reach across many cells, dividing further would only repeat work.
         if (2 * (low.fields.size() + high.fields.size()) > 3 * block.fields.size()) return false;
-        block.fields = {};
+        block.fields = std::vector<std::uint32_t>();
         divide(std::move(low));
         divide(std::move(high));
         return true;
