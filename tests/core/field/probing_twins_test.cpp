@@ -1,8 +1,10 @@
 // Probing operators against their definitions, written down without rasters or bins.
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/base/random.h"
@@ -283,6 +285,81 @@ TEST(NearestTriangleProbing, OfEquallyNearSidesTakesTheOneNearerToThePlane) {
     for (const Shape& wall : {triangle(low, high, low_end), triangle(high, low, low_end),
                               triangle(low_end, high, low)}) {
         for (const Vector3f& p : MeshProbe(wall)(pattern)) EXPECT_NEAR(p.z(), 0.1F, 1e-5F);
+    }
+}
+
+/// Triangles of all sizes anywhere about the disk, which leave gaps between them.
+Shape scattered_triangles(int count) {
+    Random random(7);
+    Shape soup;
+    soup.cloud.points.resize(3, 3 * count);
+    soup.triangles.resize(3, count);
+    for (int t = 0; t < count; ++t) {
+        const Vector3d middle(random.uniform(-1, 1), random.uniform(-1, 1), 0.4 * random.normal());
+        const double size = std::exp(random.uniform(-4, -0.5));
+        for (int c = 0; c < 3; ++c) {
+            soup.cloud.points.col(3 * t + c) =
+                middle + size * Vector3d(random.normal(), random.normal(), random.normal());
+        }
+        const auto first = static_cast<std::uint32_t>(3 * t);
+        soup.triangles.col(t) << first, first + 1, first + 2;
+    }
+    return soup;
+}
+
+/// Height of a triangle straight above or below a place, if it is there.
+std::optional<double> height_at(const Shape& mesh, Eigen::Index t, double x, double y) {
+    const auto corner = [&](int c) { return mesh.cloud.points.col(mesh.triangles(c, t)); };
+    Eigen::Matrix3d weights;
+    for (int c = 0; c < 3; ++c) weights.col(c) << corner(c).x(), corner(c).y(), 1;
+    const Vector3d share = weights.inverse() * Vector3d(x, y, 1);
+    if (share.minCoeff() < 0) return std::nullopt;
+    return share[0] * corner(0).z() + share[1] * corner(1).z() + share[2] * corner(2).z();
+}
+
+/// Squared distance in the plane from a place to the nearest side of any triangle.
+double squared_distance_to_sides(const Shape& mesh, double x, double y) {
+    double least = std::numeric_limits<double>::infinity();
+    for (Eigen::Index t = 0; t < mesh.triangles.cols(); ++t) {
+        for (int c = 0; c < 3; ++c) {
+            const Eigen::Vector2d a = mesh.cloud.points.col(mesh.triangles(c, t)).head<2>();
+            const Eigen::Vector2d b =
+                mesh.cloud.points.col(mesh.triangles((c + 1) % 3, t)).head<2>();
+            const double along = (Eigen::Vector2d(x, y) - a).dot(b - a) / (b - a).squaredNorm();
+            const Eigen::Vector2d at = a + std::clamp(along, 0.0, 1.0) * (b - a);
+            least = std::min(least, (at - Eigen::Vector2d(x, y)).squaredNorm());
+        }
+    }
+    return least;
+}
+
+TEST(NearestTriangleProbing, FindsWhatASearchThroughAllTrianglesFinds) {
+    const Shape soup = scattered_triangles(60);
+    const MeshProbe probe(soup);
+    for (const Pattern& pattern : {Pattern::grid(16), Pattern::random_disk(150, 3)}) {
+        const auto found = probe(pattern);
+        int above = 0;
+        int beside = 0;
+        for (int i = 0; i < pattern.size(); ++i) {
+            const Vector3d node = pattern.point(i).cast<double>();
+            const Vector3d place = found[static_cast<std::size_t>(i)].cast<double>();
+            double nearest = std::numeric_limits<double>::infinity();
+            for (Eigen::Index t = 0; t < soup.triangles.cols(); ++t) {
+                const auto height = height_at(soup, t, node.x(), node.y());
+                if (height && std::abs(*height) < std::abs(nearest)) nearest = *height;
+            }
+            if (std::isfinite(nearest)) {
+                ++above;
+                ASSERT_NEAR((place.head<2>() - node.head<2>()).norm(), 0, 1e-6);
+                ASSERT_NEAR(place.z(), nearest, 1e-4);
+            } else {
+                ++beside;
+                ASSERT_NEAR((place.head<2>() - node.head<2>()).norm(),
+                            std::sqrt(squared_distance_to_sides(soup, node.x(), node.y())), 1e-4);
+            }
+        }
+        EXPECT_GT(above, 30);
+        EXPECT_GT(beside, 30);
     }
 }
 
