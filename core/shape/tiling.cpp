@@ -98,7 +98,7 @@ Sketch make_sketch(const PointSource& source, const Execution& execution) {
     return sketch;
 }
 
-Partition::Partition(const Sketch& sketch, double most) {
+Partition::Partition(const Sketch& sketch, double most) : low_(sketch.low), high_(sketch.high) {
     std::vector<Eigen::Vector3d> points = sketch.points;
     const double share = static_cast<double>(points.size()) /
                          static_cast<double>(std::max<std::size_t>(1, sketch.of));
@@ -124,6 +124,27 @@ std::uint32_t Partition::build(std::span<Eigen::Vector3d> points, double most, c
     const std::uint32_t second = build(points.subspan(below), most, high);
     nodes_[at] = {cut->axis, cut->place, first, second};
     return at;
+}
+
+Partition::Nearness::Nearness(const Partition& partition, const std::vector<std::uint32_t>& boxes,
+                              double distance)
+    : partition_(partition),
+      leads_to_(partition.nodes_above(boxes)),
+      distance_(distance),
+      cells_(static_cast<std::size_t>(kCells) * kCells * kCells) {
+    const Eigen::Array3d cell = (partition.high_ - partition.low_).array() / kCells;
+    cells_per_length_ = cell.inverse();
+    // Rounding is far less than what this is more than half of a diagonal.
+    const double around = distance + 0.51 * cell.matrix().norm();
+    std::size_t at = 0;
+    for (int k = 0; k < kCells; ++k) {
+        for (int j = 0; j < kCells; ++j) {
+            for (int i = 0; i < kCells; ++i) {
+                const Eigen::Array3d middle = Eigen::Array3d(i + 0.5, j + 0.5, k + 0.5) * cell;
+                cells_[at++] = is_near(partition.low_ + middle.matrix(), around);
+            }
+        }
+    }
 }
 
 Tiling::Tiling(const PointSource& source, const Partition& partition, double margin,
@@ -178,13 +199,13 @@ std::vector<std::uint8_t> Partition::nodes_above(const std::vector<std::uint32_t
 Excerpt make_excerpt(const PointSource& source, const Partition& partition, std::size_t boxes,
                      double margin, const Execution& execution) {
     const std::vector<std::uint32_t> chosen = partition.choose(boxes);
-    const Partition::Nearness is_near(partition, chosen);
+    const Partition::Nearness is_near(partition, chosen, margin);
     Excerpt excerpt;
     for (const std::uint32_t box : chosen) excerpt.boxes.push_back(partition.boxes()[box]);
     std::vector<std::vector<std::uint32_t>> parts(kPartsOfPass);
     for_each_point(source, execution,
                    [&](std::size_t part, std::size_t index, const Eigen::Vector3d& place) {
-                       if (!is_near(place, margin)) return;
+                       if (!is_near(place)) return;
                        parts[part].push_back(static_cast<std::uint32_t>(index));
                    });
     excerpt.points = joined(parts);

@@ -41,21 +41,39 @@ public:
     /// Some of the boxes, evenly over all. @returns their numbers, ascending
     [[nodiscard]] std::vector<std::uint32_t> choose(std::size_t count) const;
 
-    /// Whether a place lies in or near to one of some boxes.
+    /// Whether places lie in or near to one of some boxes. Most that do not are told by a raster.
     class Nearness {
     public:
-        Nearness(const Partition& partition, const std::vector<std::uint32_t>& boxes)
-            : partition_(partition), leads_to_(partition.nodes_above(boxes)) {}
+        /// @param distance how near is near [input length], >= 0
+        Nearness(const Partition& partition, const std::vector<std::uint32_t>& boxes,
+                 double distance);
 
-        [[nodiscard]] bool operator()(const Eigen::Vector3d& place, double distance) const {
+        [[nodiscard]] bool operator()(const Eigen::Vector3d& place) const {
+            return may_be_near(place) && is_near(place, distance_);
+        }
+
+    private:
+        static constexpr int kCells = 64;
+
+        [[nodiscard]] bool is_near(const Eigen::Vector3d& place, double distance) const {
             bool near = false;
             partition_.descend(0, place, distance, leads_to_, [&](std::uint32_t) { near = true; });
             return near;
         }
 
-    private:
+        /// By the cell that the place lies in.
+        [[nodiscard]] bool may_be_near(const Eigen::Vector3d& place) const {
+            const Eigen::Array3d cell = (place - partition_.low_).array() * cells_per_length_;
+            if (!((cell >= 0).all() && (cell < kCells).all())) return true;
+            const Eigen::Array3i at = cell.cast<int>();
+            return cells_[static_cast<std::size_t>((at[2] * kCells + at[1]) * kCells + at[0])];
+        }
+
         const Partition& partition_;
         std::vector<std::uint8_t> leads_to_;
+        double distance_;
+        Eigen::Array3d cells_per_length_;
+        std::vector<bool> cells_;
     };
 
 private:
@@ -84,6 +102,7 @@ private:
         if (beyond >= -distance) descend(node.high, place, distance, among, visit);
     }
 
+    Eigen::Vector3d low_, high_;  // of the cloud
     std::vector<Node> nodes_;
     std::vector<Box> boxes_;
 };
