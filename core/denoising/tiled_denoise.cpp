@@ -128,6 +128,11 @@ public:
 private:
     static constexpr double kShareOfLearning = 0.05;
 
+    struct Deconvolved {
+        std::uint32_t index;   ///< of the point
+        Eigen::Vector3f move;  ///< from where it was at first
+    };
+
     static Sketch checked(Sketch sketch) {
         check_number_of_points(sketch.of);
         check_extent((sketch.high - sketch.low).maxCoeff());
@@ -176,8 +181,8 @@ private:
     /// Moves points to where they explain the scan. @param noise of the scan [input length]
     /// @returns the share of the points that was deconvolved
     double deconvolve_all(double noise, const Execution& execution) {
-        std::vector<Eigen::Vector3f> moves = moves_;
-        std::vector<std::size_t> bent(tiles_.size(), 0);
+        // Tiles see where the points around them were before; few are moved, as most are flat.
+        std::vector<std::vector<Deconvolved>> bent(tiles_.size());
         for_each_tile("deconvolve", execution, [&](std::size_t tile, const Execution& alone) {
             const Box& box = partition_.boxes()[tile];
             const std::span<const std::uint32_t> indices = tiles_.points(tile);
@@ -185,13 +190,16 @@ private:
             Points now = moved(scan, indices).cloud.points;
             for (const std::uint32_t i : deconvolve(scan, noise, {box}, now, alone)) {
                 if (!box.holds(scan.col(i))) continue;
-                moves[indices[i]] = (now.col(i) - scan.col(i)).cast<float>();
-                ++bent[tile];
+                bent[tile].push_back({indices[i], (now.col(i) - scan.col(i)).cast<float>()});
             }
+            bent[tile].shrink_to_fit();
         });
-        moves_ = std::move(moves);
-        return static_cast<double>(std::accumulate(bent.begin(), bent.end(), std::size_t{0})) /
-               static_cast<double>(sketch_.of);
+        std::size_t count = 0;
+        for (const std::vector<Deconvolved>& points : bent) {
+            for (const Deconvolved& point : points) moves_[point.index] = point.move;
+            count += points.size();
+        }
+        return static_cast<double>(count) / static_cast<double>(sketch_.of);
     }
 
     /// Calls body(tile, execution) for some tiles at a time.
