@@ -9,6 +9,7 @@
 #include <system_error>
 
 namespace lpf::server {
+
 void use_large_pages([[maybe_unused]] char** arguments) {
 #ifdef __GLIBC__
     constexpr const char* kVariable = "GLIBC_TUNABLES";

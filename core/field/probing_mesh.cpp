@@ -17,37 +17,20 @@ constexpr int kFinestSubdivision = 1024;
 using Triangle = std::array<Eigen::Vector3f, 3>;
 
 /// What a triangle covers of the plane.
-struct Shadow {
-    float low_x, high_x, low_y, high_y;
+Eigen::AlignedBox2f shadow_of(const Triangle& corners) {
+    Eigen::AlignedBox2f shadow(corners[0].head<2>());
+    for (const Eigen::Vector3f& corner : corners) shadow.extend(corner.head<2>());
+    return shadow;
+}
 
-    explicit Shadow(const Triangle& corners) {
-        const auto [lowest_x, highest_x] =
-            std::minmax({corners[0].x(), corners[1].x(), corners[2].x()});
-        const auto [lowest_y, highest_y] =
-            std::minmax({corners[0].y(), corners[1].y(), corners[2].y()});
-        low_x = lowest_x;
-        high_x = highest_x;
-        low_y = lowest_y;
-        high_y = highest_y;
-    }
-
-    /// Rounding finds nothing outside of it.
-    void widen() {
-        constexpr float kShare = 1e-4F;
-        constexpr float kLeast = 1e-6F;
-        const float by = kShare * std::max(high_x - low_x, high_y - low_y) + kLeast;
-        low_x -= by;
-        high_x += by;
-        low_y -= by;
-        high_y += by;
-    }
-
-    [[nodiscard]] float squared_distance(float x, float y) const {
-        const float dx = std::max({low_x - x, x - high_x, 0.0F});
-        const float dy = std::max({low_y - y, y - high_y, 0.0F});
-        return dx * dx + dy * dy;
-    }
-};
+/// With a rim, so that rounding finds nothing outside of it.
+Eigen::AlignedBox2f with_rim(const Eigen::AlignedBox2f& shadow) {
+    constexpr float kShare = 1e-4F;
+    constexpr float kLeast = 1e-6F;
+    const Eigen::Vector2f rim =
+        Eigen::Vector2f::Constant(kShare * shadow.sizes().maxCoeff() + kLeast);
+    return {shadow.min() - rim, shadow.max() + rim};
+}
 
 /// Nodes that follow each other, of one y and with ascending x.
 struct NodeRow {
@@ -155,8 +138,7 @@ private:
         constexpr float kRim = -1e-5F;  // neighbours leave no gap between them
         const float* x = pattern_.channel(0);
         const float* y = pattern_.channel(1);
-        Shadow shadow(corners);
-        shadow.widen();
+        const Eigen::AlignedBox2f shadow = with_rim(shadow_of(corners));
         const auto meet = [&](std::ptrdiff_t i) {
             const float px = x[i] - corners[0].x();
             const float py = y[i] - corners[0].y();
@@ -166,11 +148,11 @@ private:
             const bool hit = b >= kRim && c >= kRim && b + c <= 1 - kRim;
             if (hit && std::abs(z) < std::abs(height[i])) height[i] = z;
         };
-        for (auto row = std::ranges::lower_bound(rows_, shadow.low_y, {}, &NodeRow::y);
-             row != rows_.end() && row->y <= shadow.high_y; ++row) {
+        for (auto row = std::ranges::lower_bound(rows_, shadow.min().y(), {}, &NodeRow::y);
+             row != rows_.end() && row->y <= shadow.max().y(); ++row) {
             const float* const end = x + row->end;
-            for (const float* node = std::lower_bound(x + row->first, end, shadow.low_x);
-                 node != end && *node <= shadow.high_x; ++node) {
+            for (const float* node = std::lower_bound(x + row->first, end, shadow.min().x());
+                 node != end && *node <= shadow.max().x(); ++node) {
                 meet(node - x);
             }
         }
@@ -184,7 +166,9 @@ private:
         constexpr float kRoundingDown = 0.9999F;
         for (std::size_t t = 0; t < scratch.triangles.size(); ++t) {
             const Triangle corners = triangle(scratch, t);
-            if (kRoundingDown * Shadow(corners).squared_distance(x, y) > squared) continue;
+            if (kRoundingDown * shadow_of(corners).squaredExteriorDistance(Eigen::Vector2f(x, y)) >
+                squared)
+                continue;
             for (std::size_t side = 0; side < 3; ++side) {
                 nearest_on_segment(corners[side], corners[(side + 1) % 3], x, y, squared, best);
             }
